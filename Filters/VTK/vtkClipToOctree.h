@@ -87,8 +87,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  void FreeStages() override;
+  bool NeedsWholeSurface() override;
 
   int GenerateQuadraturePoints = QuadraturePointsAutomatic;
   int Level = 14;
@@ -98,10 +97,6 @@ private:
   void operator=(const vtkClipToOctree&) = delete;
 
   bool WantsQuadraturePoints(double triangles) const;
-  void ClipTogether(vtkPolyData* piece, int threads);
-
-  struct Internals;
-  std::unique_ptr<Internals> Data;
 };
 
 #endif

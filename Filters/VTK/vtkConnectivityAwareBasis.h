@@ -74,8 +74,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  void FreeStages() override;
+  bool NeedsWholeSurface() override;
 
   int Level = 14;
   vtkIdType BasisId = -1;
@@ -83,13 +82,6 @@ protected:
 private:
   vtkConnectivityAwareBasis(const vtkConnectivityAwareBasis&) = delete;
   void operator=(const vtkConnectivityAwareBasis&) = delete;
-
-  void UpdateBasis(vtkPolyData* input);
-  void ReadClip(vtkPolyData* input);
-  void AddBasisFunction(vtkPolyData* output);
-
-  struct Internals;
-  std::unique_ptr<Internals> Data;
 };
 
 #endif

@@ -1,7 +1,7 @@
 #include "vtkFarthestPoints.h"
 
+#include "Private/FilterState.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Solvers/FarthestPointsSolver.h"
 
@@ -33,17 +33,17 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   const gridfem::SurfaceOptions defaults = gridfem::FarthestPointsSolver::SurfaceDefaults();
   state.options.space.joinAtPoints = defaults.space.joinAtPoints;
   state.options.functionsPerPoint = defaults.functionsPerPoint;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   gridfem::FarthestPointsSolver::Options options;
   options.equation = state.options;
   options.numberOfPoints = this->NumberOfPoints;
   options.firstPointId = this->FirstPointId;
   const gridfem::FarthestPointsSolver::Result& result =
-    this->Data->Solver.Update(state, options, { 0, state.GetProgress() });
+    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();

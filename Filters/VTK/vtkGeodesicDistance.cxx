@@ -1,10 +1,10 @@
 #include "vtkGeodesicDistance.h"
 
+#include "Private/FilterState.h"
 #include "Private/NearestPoints.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceCurves.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DistanceSolver.h"
@@ -81,22 +81,22 @@ bool vtkGeodesicDistance::NeedsWholeSurface()
 
 void vtkGeodesicDistance::FindSources(vtkDataSet* places)
 {
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::InputSurface& surface = this->State->Surface();
   gridfem::DistanceSolver::Input& input = this->Data->Input;
   input.ids = this->Data->SourceIds;
-  input.mask = state.Given(state.Find(0, "Source Array"));
+  input.mask = surface.Given(surface.Find(0, "Source Array"));
   if (this->Selection->IsGiven())
   {
     input.points.push_back({ "The Selection", "The Selection takes no point of a polygon",
-      [this] { return this->Selection->Ids(this->State->Mesh()); } });
+      [this, &surface] { return this->Selection->Ids(surface.Mesh()); } });
   }
   if (places && !this->Signed)
   {
     input.points.push_back({ "Sources", "The input Sources has no points",
-      [this, places]
+      [places, &surface]
       {
         return places->GetNumberOfPoints() > 0
-                 ? gridfem::NearestPoints(this->State->Mesh(), places, "Sources")
+                 ? gridfem::NearestPoints(surface.Mesh(), places, "Sources")
                  : std::vector<gridfem::Id>();
       } });
   }
@@ -104,12 +104,12 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
 
 void vtkGeodesicDistance::FindCurve(vtkDataSet* lines)
 {
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::InputSurface& surface = this->State->Surface();
   gridfem::DistanceSolver::Input& input = this->Data->Input;
-  input.labels = state.Given(state.Find(1, "Label Array"));
+  input.labels = surface.Given(surface.Find(1, "Label Array"));
   input.curve.version.Add(lines);
-  input.curve.divide = [&state, lines]
-  { return gridfem::CurveOfLines(lines, state.Mesh(), state.AreCoincidentPointsWelded()); };
+  input.curve.divide = [&surface, lines]
+  { return gridfem::CurveOfLines(lines, surface.Mesh(), surface.AreCoincidentPointsWelded()); };
 }
 
 void vtkGeodesicDistance::Write(vtkPolyData* input, vtkPolyData* output)
@@ -135,13 +135,13 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkDataSet* places = vtkDataSet::GetData(inputs[2]);
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   const gridfem::SurfaceOptions defaults = gridfem::DistanceSolver::SurfaceDefaults();
   state.options.space.joinAtPoints = defaults.space.joinAtPoints;
   state.options.functionsPerPoint = defaults.functionsPerPoint;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
   data.Input = {};
   this->FindSources(places);
   if (this->Signed)
@@ -155,8 +155,8 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   options.isSigned = this->Signed;
   options.insideLabel = this->InsideLabel;
   const gridfem::DistanceSolver::Result& result =
-    data.Solver.Update(state, data.Input, options, { 0, state.GetProgress() });
-  state.Together([&] { this->Write(input, vtkPolyData::GetData(outputs, 0)); });
+    data.Solver.Update(surface, data.Input, options, { 0, state.GetProgress() });
+  surface.Together([&] { this->Write(input, vtkPolyData::GetData(outputs, 0)); });
   this->Warn(result.warnings);
 }
 

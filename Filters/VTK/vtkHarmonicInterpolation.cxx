@@ -1,10 +1,10 @@
 #include "vtkHarmonicInterpolation.h"
 
+#include "Private/FilterState.h"
 #include "Private/GivenValues.h"
 #include "Private/InputArray.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Solvers/InterpolationSolver.h"
 
@@ -107,21 +107,21 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   vtkPolyData* input, vtkDataSet* places)
 {
   gridfem::InputArray& array = this->Data->Array;
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::InputSurface& surface = this->State->Surface();
   gridfem::GivenConstraints values;
   if (places)
   {
     array = FindArrayOf(this, places);
-    values.find = [array, places, &state]
-    { return gridfem::ValuesOfPlaces(array, state.Mesh(), places); };
+    values.find = [array, places, &surface]
+    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places); };
     return values;
   }
   array = FindValueArray(this, input);
   gridfem::RequirePointArray(array, "Value Array",
     "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points.");
-  const gridfem::InputArray mask = state.Find(1, "Mask Array");
-  values.find = [this, array, mask]
-  { return gridfem::KnownValues(array, mask, *this->Selection, this->State->Mesh()); };
+  const gridfem::InputArray mask = surface.Find(1, "Mask Array");
+  values.find = [this, array, mask, &surface]
+  { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
   return values;
 }
 
@@ -130,15 +130,15 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
   const gridfem::GivenConstraints values = this->FindValues(input, vtkDataSet::GetData(inputs[2]));
   gridfem::InterpolationSolver::Options options;
   options.equation = state.options;
   options.smoothness = static_cast<gridfem::Smoothness>(this->Smoothness);
   const gridfem::InterpolationSolver::Result& result =
-    data.Solver.Update(state, { values }, options, { 0, state.GetProgress() });
+    data.Solver.Update(surface, { values }, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
   output->GetPointData()->AddArray(gridfem::MakeSolution(

@@ -2,12 +2,12 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/PipelineTime.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DiffusionSolver.h"
@@ -75,14 +75,14 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
-  data.Array = state.Find(0, "Array");
-  data.Source = state.Find(1, "Heat Source Array");
-  data.Mask = state.Find(2, "Constraint Array");
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  data.Array = surface.Find(0, "Array");
+  data.Source = surface.Find(1, "Heat Source Array");
+  data.Mask = surface.Find(2, "Constraint Array");
 
   gridfem::DiffusionSolver::Options options;
   options.equation = state.options;
@@ -90,10 +90,10 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   options.numberOfSteps = this->NumberOfSteps;
   options.boundaryValues = this->BoundaryValues;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::DiffusionSolver::Result& result = data.Solver.Update(state,
-    { state.Given(data.Array), state.Given(data.Source),
-      state.ConstraintsOf(data.Array, data.Mask, *this->Selection) },
-    options, { state.Threads(), progress.Part(0.0, 0.95) });
+  const gridfem::DiffusionSolver::Result& result = data.Solver.Update(surface,
+    { surface.Given(data.Array), surface.Given(data.Source),
+      surface.ConstraintsOf(data.Array, data.Mask, *this->Selection) },
+    options, { surface.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
 
   const int shown =
@@ -101,7 +101,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
       ? this->NumberOfSteps
       : gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
   const gridfem::DiffusionSolver::Step& step = result.steps[static_cast<std::size_t>(shown) - 1];
-  state.Together(
+  surface.Together(
     [&]
     {
       if (input && input->GetPoints())
@@ -130,16 +130,16 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   vtkPointData* points = output->GetPointData();
   if (array.array)
   {
-    points->AddArray(
-      gridfem::MakeSolution("Diffused", values, array, this->State->DataTypeOf(0, array)));
+    points->AddArray(gridfem::MakeSolution(
+      "Diffused", values, array, this->State->Surface().DataTypeOf(0, array)));
     points->SetActiveScalars("Diffused");
   }
   else
   {
     gridfem::KeepUnsolved(input->GetPoints()->GetData(), values);
     points->AddArray(gridfem::MakePointArray("Diffused", values, VTK_DOUBLE));
-    gridfem::MoveSurface(this->State->Mesh(), values, gridfem::OutputPrecision(input->GetPoints()),
-      this->NumberOfThreads, output);
+    gridfem::MoveSurface(this->State->Surface().Mesh(), values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
 }
 

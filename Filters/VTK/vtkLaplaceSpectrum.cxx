@@ -2,11 +2,11 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
 #include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
@@ -91,24 +91,24 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   if (!this->AllModes)
   {
     gridfem::RequireAtLeast("Mode", this->Mode, -1);
   }
   state.options.trackMetric = this->TrackMetric && this->Accuracy == 0.0;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  const bool choosesDepth = this->Accuracy > 0.0 && !state.AreFunctionsGiven();
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  const bool choosesDepth = this->Accuracy > 0.0 && !surface.AreFunctionsGiven();
   state.options.functionsPerPoint =
     choosesDepth ? gridfem::AsManyAsWanted
                  : gridfem::SpectrumSolver::SurfaceDefaults().functionsPerPoint;
-  state.metricArray = state.Find(5, "Metric Array");
+  state.options.metricArray = surface.Find(5, "Metric Array");
   this->Solve();
 
   const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
   this->WriteModes(input ? input : nothing, outputs->GetInformationObject(0), output);
-  state.Together(
+  surface.Together(
     [&]
     {
       this->WriteFields(output);
@@ -123,7 +123,8 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 
 void vtkLaplaceSpectrum::Solve()
 {
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Surface();
   gridfem::SpectrumSolver::Options options;
   options.equation = state.options;
   options.numberOfModes = this->NumberOfModes;
@@ -133,7 +134,7 @@ void vtkLaplaceSpectrum::Solve()
   { state.bridge.Announce(cost, takesHours); };
   this->Data->WantedModes = 0;
   this->Data->Result = &this->Data->Solver.Update(
-    state, input, options, { state.Threads(), state.GetProgress().Part(0.0, 0.95) });
+    surface, input, options, { surface.Threads(), state.GetProgress().Part(0.0, 0.95) });
   this->Data->WantedModes = this->NumberOfModes;
   this->Data->FoundModes = this->Data->Result->NumberOfModes();
 }
@@ -175,7 +176,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   if (!this->AllModes)
   {
     int shown = 0;
-    this->State->Together([&] { shown = this->ShownMode(info); });
+    this->State->Surface().Together([&] { shown = this->ShownMode(info); });
     this->AddMode(shown, "Mode", output);
     output->GetPointData()->SetActiveScalars("Mode");
     return;
@@ -189,8 +190,9 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
 
 void vtkLaplaceSpectrum::AddMode(int mode, const std::string& name, vtkPolyData* output)
 {
-  const gridfem::MultiVector values = this->Data->Solver.ModesAtPoints(*this->State, mode, 1);
-  this->State->Together(
+  gridfem::InputSurface& surface = this->State->Surface();
+  const gridfem::MultiVector values = this->Data->Solver.ModesAtPoints(surface, mode, 1);
+  surface.Together(
     [&]
     {
       const int precision = output->GetPoints() // an empty piece of a surface has none
@@ -208,7 +210,7 @@ void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
   gridfem::AddFieldInt(output, "CutsGroup", result.spectrum.cutsMultiplet ? 1 : 0);
   gridfem::AddFieldInt(output, "TrustedEstimate", result.isErrorTrusted ? 1 : 0);
-  this->State->WriteTracking(output);
+  this->State->Surface().WriteTracking(output);
 }
 
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table) const

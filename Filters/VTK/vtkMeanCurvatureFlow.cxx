@@ -1,10 +1,10 @@
 #include "vtkMeanCurvatureFlow.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/PipelineTime.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/FlowSolver.h"
@@ -94,10 +94,10 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   gridfem::FlowSolver& solver = this->Data->Solver;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
 
   gridfem::FlowSolver::Options options;
   options.equation.solve = state.options.solve;
@@ -109,13 +109,13 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   options.rescale = static_cast<gridfem::FlowSolver::Rescale>(this->Rescale);
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::FlowSolver::Result& result =
-    solver.Update(state, options, { state.Threads(), progress.Part(0.0, 0.9) });
+    solver.Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.9) });
 
   const int last = static_cast<int>(result.steps.size()) - 1;
   const int shown =
     this->TimeFrom == Input ? last : gridfem::ShownStep(outputs->GetInformationObject(0), 0, last);
   output->ShallowCopy(input);
-  gridfem::MoveMesh(state.Mesh(), solver.PointsAt(shown, state, progress.Part(0.9, 0.98)),
+  gridfem::MoveMesh(surface.Mesh(), solver.PointsAt(shown, surface, progress.Part(0.9, 0.98)),
     gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddFieldNumber(output, "FlowTime", result.steps[shown].time);

@@ -1,7 +1,7 @@
 #include "vtkPrincipalCurvatures.h"
 
+#include "Private/FilterState.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Solvers/CurvatureSolver.h"
 
@@ -33,14 +33,14 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.SetInput(input, nullptr);
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Read(input, nullptr);
   gridfem::CurvatureSolver::Options options;
   options.equation = state.options;
   options.smoothingScale = this->SmoothingScale;
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::CurvatureSolver::Result& result =
-    this->Data->Solver.Update(state, options, { state.Threads(), progress.Part(0.0, 0.95) });
+    this->Data->Solver.Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();

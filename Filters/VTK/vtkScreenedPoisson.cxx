@@ -2,12 +2,12 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
@@ -71,14 +71,14 @@ bool vtkScreenedPoisson::NeedsWholeSurface()
 void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  data.Value = state.Find(0, "Value Array");
-  data.Gradient = state.Find(1, "Gradient Array");
-  data.Scale = state.Find(2, "Gradient Scale Array");
-  data.Weight = state.Find(3, "Value Weight Array");
-  data.Constraint = state.Find(4, "Constraint Array");
-  state.metricArray = state.Find(5, "Metric Array");
-  data.Flux = state.Find(6, "Boundary Flux Array");
+  gridfem::InputSurface& surface = this->State->Surface();
+  data.Value = surface.Find(0, "Value Array");
+  data.Gradient = surface.Find(1, "Gradient Array");
+  data.Scale = surface.Find(2, "Gradient Scale Array");
+  data.Weight = surface.Find(3, "Value Weight Array");
+  data.Constraint = surface.Find(4, "Constraint Array");
+  this->State->options.metricArray = surface.Find(5, "Metric Array");
+  data.Flux = surface.Find(6, "Boundary Flux Array");
   this->RequireFluxFits();
 }
 
@@ -90,7 +90,7 @@ void vtkScreenedPoisson::RequireFluxFits() const
       "A Boundary Flux Array cannot be combined with Track Metric, because the flux is "
       "per length of the boundary, and the kept functions have its earlier length.");
   }
-  if (this->Data->Flux.array && this->State->metricArray.array)
+  if (this->Data->Flux.array && this->State->options.metricArray.array)
   {
     throw gridfem::InvalidInput(
       "A Boundary Flux Array cannot be combined with a Metric Array, because the flux is "
@@ -103,11 +103,11 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.options.trackMetric = this->TrackMetric && !(this->WantedError > 0.0);
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
   this->FindArrays();
 
   gridfem::PoissonSolver::Options options;
@@ -119,13 +119,13 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   options.boundaryValues = this->BoundaryValues;
   options.wantedError = this->WantedError;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::PoissonSolver::Result& result = data.Solver.Update(state,
-    { state.Given(data.Value), state.Given(data.Gradient), state.Given(data.Scale),
-      state.Given(data.Weight), state.Given(data.Flux),
-      state.ConstraintsOf(data.Value, data.Constraint, *this->Selection) },
-    options, { state.Threads(), progress.Part(0.0, 0.95) });
+  const gridfem::PoissonSolver::Result& result = data.Solver.Update(surface,
+    { surface.Given(data.Value), surface.Given(data.Gradient), surface.Given(data.Scale),
+      surface.Given(data.Weight), surface.Given(data.Flux),
+      surface.ConstraintsOf(data.Value, data.Constraint, *this->Selection) },
+    options, { surface.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
-  state.Together(
+  surface.Together(
     [&]
     {
       if (input && input->GetPoints())
@@ -134,7 +134,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
       }
       gridfem::AddReport(result.report, output);
       gridfem::AddAccuracy(result.accuracy, output);
-      state.WriteTracking(output);
+      surface.WriteTracking(output);
       if (result.holdsValues)
       {
         gridfem::AddFieldNumber(output, "Misfit", result.misfit);
@@ -157,14 +157,14 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::InputSurface& surface = this->State->Surface();
   gridfem::MultiVector values = data.Result->atPoints;
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
   if (data.Value.array)
   {
     points->AddArray(
-      gridfem::MakeSolution("Solution", values, data.Value, state.DataTypeOf(0, data.Value)));
+      gridfem::MakeSolution("Solution", values, data.Value, surface.DataTypeOf(0, data.Value)));
     points->SetActiveScalars("Solution");
   }
   else
@@ -172,8 +172,8 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
     vtkDataArray* places = input->GetPoints()->GetData();
     gridfem::KeepUnsolved(places, values);
     points->AddArray(gridfem::MakePointArray("Solution", values, places->GetDataType()));
-    gridfem::MoveSurface(state.CurrentMesh(), values, gridfem::OutputPrecision(input->GetPoints()),
-      this->NumberOfThreads, output);
+    gridfem::MoveSurface(surface.CurrentMesh(), values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
 }
 

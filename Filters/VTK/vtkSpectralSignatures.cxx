@@ -3,61 +3,27 @@
 #include "Private/CanDistribute.h"
 #include "Private/CarriedModes.h"
 #include "Private/ClippedMeshWriter.h"
-#include "Private/InputArray.h"
-#include "Private/InputValidation.h"
+#include "Private/FilterState.h"
 #include "Private/ModeReader.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/Ranks.h"
+#include "Private/SignatureOutput.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
-#include "Solvers/SignatureSolver.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
 vtkStandardNewMacro(vtkSpectralSignatures);
-
-namespace
-{
-
-/// Adds a point array whose components are named by their scales.
-void AddSignature(vtkPolyData* output, const char* name, const gridfem::MultiVector& values,
-  const char* symbol, const std::vector<double>& scales, int precision)
-{
-  auto array = gridfem::MakePointArray(name, values, precision);
-  for (std::size_t j = 0; j < scales.size(); ++j)
-  {
-    std::ostringstream component;
-    component.precision(3);
-    component << symbol << " = " << scales[j];
-    array->SetComponentName(static_cast<vtkIdType>(j), component.str().c_str());
-  }
-  output->GetPointData()->AddArray(array);
-}
-
-void AddNumbers(
-  vtkPolyData* output, const char* name, const std::vector<double>& values, int precision)
-{
-  const Eigen::Map<const Eigen::VectorXd> column(values.data(), values.size());
-  output->GetPointData()->AddArray(gridfem::MakePointArray(name, column, precision));
-}
-
-} // namespace
 
 struct vtkSpectralSignatures::Internals
 {
@@ -134,21 +100,21 @@ bool vtkSpectralSignatures::NeedsWholeSurface()
 void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.options.functionsPerPoint = gridfem::SignatureSolver::SurfaceDefaults().functionsPerPoint;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   data.Given = {};
-  data.Given.modes = data.Carried.Update(state, input);
+  data.Given.modes = data.Carried.Update(surface, input);
   this->Solve(vtkDataSet::GetData(inputs[2]));
-  state.Together(
+  surface.Together(
     [&]
     {
       this->Write(input, vtkPolyData::GetData(outputs, 0));
       if (gridfem::Ranks().IsFirst())
       {
-        this->WriteTable(vtkTable::GetData(outputs, 1));
+        gridfem::WriteFingerprint(*data.Result->modes, vtkTable::GetData(outputs, 1));
       }
     });
   if (!data.Carried.Misfit().empty())
@@ -162,19 +128,20 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
 
 void vtkSpectralSignatures::Solve(vtkDataSet* sources)
 {
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Surface();
   Internals& data = *this->Data;
   const gridfem::Progress progress = state.GetProgress();
   if (!data.Given.modes)
   {
-    state.Prepare(progress.Part(0.0, 0.3));
+    surface.Prepare(progress.Part(0.0, 0.3));
   }
-  data.Mesh = data.Given.modes ? data.Carried.Mesh() : state.mesh;
+  data.Mesh = data.Given.modes ? data.Carried.Mesh() : surface.Triangles();
   if (sources && sources->GetNumberOfPoints() == 0)
   {
     vtkWarningMacro("The input Sources has no points. It adds no sources to the distances.");
   }
-  state.Together([&]
+  surface.Together([&]
     { data.Given.sources = gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources); });
   this->FindValues();
 
@@ -188,26 +155,23 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   options.lastMode = this->LastMode;
   data.Given.announce = [&](const std::string& cost, bool takesHours)
   { state.bridge.Announce(cost, takesHours); };
-  data.Result =
-    &data.Solver.Update(state, data.Given, options, { state.Threads(), progress.Part(0.0, 0.99) });
+  data.Result = &data.Solver.Update(
+    surface, data.Given, options, { surface.Threads(), progress.Part(0.0, 0.99) });
 }
 
 /// Copies of triangles have their own values on several ranks.
 void vtkSpectralSignatures::FindValues()
 {
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::InputSurface& surface = this->State->Surface();
   Internals& data = *this->Data;
-  if (state.IsShared())
-  {
-    data.Mesh = state.together.WithCopies(data.Mesh);
-  }
+  data.Mesh = surface.WithCopies(data.Mesh);
   data.Value = {};
   if (this->FilterType == NoFilter)
   {
     return;
   }
-  data.Value = state.FindOn(data.Mesh, 0, "Value Array");
-  data.Given.values = state.Given(data.Value);
+  data.Value = surface.FindOn(data.Mesh, 0, "Value Array");
+  data.Given.values = surface.Given(data.Value);
   if (data.Given.values)
   {
     data.Given.values.read = [&data](gridfem::NaNs nans)
@@ -228,8 +192,11 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
     }
   }
   const int precision = hasPoints ? gridfem::OutputPrecision(input->GetPoints()) : VTK_DOUBLE;
-  this->WriteSignatures(precision, output); // field arrays are on all ranks
-  this->WriteDistances(precision, output);
+  gridfem::WriteSignatures(*data.Result, precision, output); // field arrays are on all ranks
+  if (!data.Given.sources.empty())
+  {
+    gridfem::WriteModeDistances(*data.Result, precision, output);
+  }
   if (hasPoints && this->FilterType != NoFilter)
   {
     this->WriteFiltered(input, output);
@@ -237,31 +204,6 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
   if (!data.Given.modes)
   {
     gridfem::AddFieldInt(output, "Converged", data.Result->isConverged ? 1 : 0);
-  }
-}
-
-void vtkSpectralSignatures::WriteSignatures(int precision, vtkPolyData* output)
-{
-  const gridfem::SignatureSolver::Result& result = *this->Data->Result;
-  AddSignature(
-    output, "WaveKernelSignature", result.waveKernel, "E", result.waveBands.energies, precision);
-  AddSignature(output, "HeatKernelSignature", result.heatKernel, "t", result.heatTimes, precision);
-  const auto middle = static_cast<gridfem::Id>(result.heatTimes.size() / 2);
-  output->GetPointData()->AddArray(
-    gridfem::MakePointArray("Signature", result.heatKernel.col(middle), precision));
-  output->GetPointData()->SetActiveScalars("Signature");
-  gridfem::AddFieldNumbers(output, "HeatTimes", result.heatTimes);
-  gridfem::AddFieldNumbers(output, "WaveEnergies", result.waveBands.energies);
-}
-
-void vtkSpectralSignatures::WriteDistances(int precision, vtkPolyData* output)
-{
-  const gridfem::SignatureSolver::Result& result = *this->Data->Result;
-  if (!this->Data->Given.sources.empty())
-  {
-    AddNumbers(output, "DiffusionDistance", result.diffusionDistance, precision);
-    AddNumbers(output, "BiharmonicDistance", result.biharmonicDistance, precision);
-    output->GetPointData()->SetActiveScalars("BiharmonicDistance");
   }
 }
 
@@ -285,21 +227,6 @@ void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* outpu
     gridfem::MoveSurface(
       mesh, values, gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
-}
-
-void vtkSpectralSignatures::WriteTable(vtkTable* table)
-{
-  const gridfem::PointModes& modes = *this->Data->Result->modes;
-  std::vector<int> number;
-  std::vector<double> fingerprint;
-  for (const double eigenvalue : modes.eigenvalues)
-  {
-    number.push_back(static_cast<int>(number.size()));
-    fingerprint.push_back(modes.area * eigenvalue);
-  }
-  gridfem::AddColumn(table, "Mode", number);
-  gridfem::AddColumn(table, "Eigenvalue", modes.eigenvalues);
-  gridfem::AddColumn(table, "ShapeDNA", fingerprint);
 }
 
 void vtkSpectralSignatures::FreeStages()

@@ -182,10 +182,7 @@ private:
   void Solve(vtkDataSet* sources);
   void FindValues();
   void Write(vtkPolyData* input, vtkPolyData* output);
-  void WriteSignatures(int precision, vtkPolyData* output);
-  void WriteDistances(int precision, vtkPolyData* output);
   void WriteFiltered(vtkPolyData* input, vtkPolyData* output);
-  void WriteTable(vtkTable* table);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

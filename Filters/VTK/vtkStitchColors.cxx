@@ -2,11 +2,11 @@
 
 #include "Private/Allocation.h"
 #include "Private/ClippedArrays.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/InterpolatedArrays.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Solvers/StitchSolver.h"
@@ -154,8 +154,8 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   const gridfem::InputArray colors = FindColors(this, input);
   const gridfem::InputArray labels = FindLabels(this, input, colors.array);
 
@@ -167,8 +167,8 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   state.options.functionsPerPoint = gridfem::StitchSolver::FunctionsPerPoint(options);
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::StitchSolver::Result& stitched =
-    this->Data->Solver.Update(state, { state.Given(colors), state.Given(labels) }, options,
-      { state.Threads(), progress.Part(0.0, 0.95) });
+    this->Data->Solver.Update(surface, { surface.Given(colors), surface.Given(labels) }, options,
+      { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
   vtkDataSetAttributes* attributes = output->GetPointData();
@@ -180,12 +180,12 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   {
     attributes = output->GetCellData();
     std::vector<char> hasTriangles(input->GetNumberOfCells(), 0);
-    for (const gridfem::Id cell : state.mesh.sourceCell)
+    for (const gridfem::Id cell : surface.Triangles().sourceCell)
     {
       hasTriangles[cell] = 1;
     }
     attributes->AddArray(WithValues(colors.array,
-      gridfem::MeansOnCells(state.mesh, stitched.values, input->GetNumberOfCells()), hasTriangles));
+      surface.MeansOnCells(stitched.values, input->GetNumberOfCells()), hasTriangles));
   }
   attributes->SetActiveScalars("StitchedColors");
   gridfem::AddReport(stitched.report, output);

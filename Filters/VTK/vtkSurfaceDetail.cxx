@@ -1,11 +1,11 @@
 #include "vtkSurfaceDetail.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DetailSolver.h"
@@ -83,16 +83,16 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  data.Value = state.Find(0, "Value Array");
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  data.Value = surface.Find(0, "Value Array");
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
 
   gridfem::DetailSolver::Input given;
-  given.values = state.Given(data.Value);
-  given.scale = state.Given(state.Find(1, "Detail Scale Array"));
+  given.values = surface.Given(data.Value);
+  given.scale = surface.Given(surface.Find(1, "Detail Scale Array"));
   given.hasSelection = this->Selection->IsGiven();
   given.selected = this->Selection->Points();
   given.selection.Add(this->Selection->Version());
@@ -115,7 +115,7 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   options.keepVolume = this->KeepVolume;
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::DetailSolver::Result& result =
-    data.Solver.Update(state, given, options, { state.Threads(), progress.Part(0.0, 0.95) });
+    data.Solver.Update(surface, given, options, { surface.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
 
   output->ShallowCopy(input);
@@ -125,8 +125,8 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   }
   else
   {
-    gridfem::MoveSurface(state.Mesh(), result.points, gridfem::OutputPrecision(input->GetPoints()),
-      this->NumberOfThreads, output);
+    gridfem::MoveSurface(surface.Mesh(), result.points,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   this->WriteFacts(output);
   progress.Check(1.0);

@@ -1,21 +1,19 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "Private/BlockTables.h"
-#include "Private/CanDistribute.h"
 #include "Private/Domain.h"
 #include "Private/FailureDump.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/InputBlocks.h"
 #include "Private/InputValidation.h"
 #include "Private/JoinedBlocks.h"
 #include "Private/PipelineTime.h"
-#include "Private/RankedOutput.h"
 #include "Private/RankedSurface.h"
 #include "Private/Ranks.h"
 #include "Private/ResultNames.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Base/LargeMemory.h"
 
@@ -23,7 +21,6 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -50,7 +47,7 @@ void EmptyOutputs(vtkInformationVector* outputs)
 } // namespace
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
-  : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
+  : State(std::make_unique<gridfem::FilterState>(this)),
     Surface(std::make_unique<gridfem::SurfaceInput>()), Inside(std::make_unique<gridfem::Domain>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
     Ranked(std::make_unique<gridfem::RankedSurface>()),
@@ -163,7 +160,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
-  this->State->SetInput(nullptr, nullptr); // Compute sets it; the last input may be gone
+  this->State->Read(nullptr, nullptr); // Compute sets it; the last input may be gone
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -220,7 +217,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   catch (const std::bad_alloc&)
   {
     this->FreeStages(); // the next run and the message may need the memory
-    vtkErrorMacro("Out of memory at Depth " << this->State->UsedOptions().space.depth
+    vtkErrorMacro("Out of memory at Depth " << this->State->Surface().UsedOptions().space.depth
                                             << ": choose a smaller Depth.");
   }
   catch (const std::exception& error)
@@ -259,89 +256,14 @@ const gridfem::JoinedBlocks* vtkSurfaceFEMAlgorithm::JoinedInput() const
   return this->BlocksAsOne && this->Blocks->Whole() ? this->Joined.get() : nullptr;
 }
 
-/// Computes one block of a surface of several blocks. The first block computes for all.
-void vtkSurfaceFEMAlgorithm::ComputeBlock(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  if (!this->Joined->HasStarted())
-  {
-    this->Joined->Start(outputs);
-    try
-    {
-      this->ComputeJoinedBlocks(inputs);
-    }
-    catch (...)
-    {
-      this->Joined->Fail(std::current_exception());
-      throw;
-    }
-  }
-  this->Joined->HandBack(vtkDataSet::GetData(inputs[0]), outputs);
-  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
-}
-
-void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
-{
-  gridfem::JoinedBlocks& joined = *this->Joined;
-  vtkCompositeDataSet* whole = this->Blocks->Whole();
-  const int ports = this->GetNumberOfInputPorts();
-  const int count = gridfem::JoinedBlocks::CountBlocks(whole);
-  if (gridfem::Ranks::AreSeveral())
-  {
-    this->Blocks->RequireAligned();
-    const gridfem::Ranks ranks;
-    const bool isShared = ranks.Number(count > 0) > 1 || count > 1;
-    vtkInformationVector** surfaces = nullptr;
-    ranks.Together(
-      [&]
-      {
-        joined.Read(whole, isShared);
-        surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
-      });
-    this->ComputeOnRanks(surfaces, joined.Results());
-    return;
-  }
-  joined.Read(whole, count > 1);
-  while (!joined.IsEmpty())
-  {
-    vtkInformationVector** surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
-    try
-    {
-      this->ComputeSurface(surfaces, joined.Results());
-      return;
-    }
-    catch (const gridfem::MissingArray& error)
-    {
-      const std::vector<std::string> without = joined.LeaveOut(error.array);
-      if (without.empty())
-      {
-        gridfem::ThrowWithPartialArrays(error, joined.Surface());
-      }
-      for (const std::string& block : without)
-      {
-        vtkWarningMacro("The surface does not include " << block << ", because it has no array '"
-                                                        << error.array
-                                                        << "'. It is output unchanged.");
-      }
-    }
-  }
-}
-
 /// Calls Compute within the domain, and adds the field array that all outputs have: the depth of
 /// the grid, if there is one.
 void vtkSurfaceFEMAlgorithm::ComputeSurface(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (this->State->together.IsUsed())
-  {
-    this->FreeStages();
-  }
+  this->UseSurface(false);
   this->ComputeInside(inputs, outputs);
-  if (this->State->basis.space)
-  {
-    gridfem::AddFieldInt(
-      vtkPolyData::GetData(outputs), "UsedDepth", this->State->Functions().GetGrid().depth);
-  }
+  this->WriteDepth(outputs);
 }
 
 /// Calls Compute on the inputs restricted to the domain. The outputs are not. Collective.
@@ -349,7 +271,7 @@ void vtkSurfaceFEMAlgorithm::ComputeInside(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkInformationVector** inside = inputs;
-  this->State->Together(
+  this->State->Surface().Together(
     [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });
   this->Compute(inside, outputs);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
@@ -357,92 +279,26 @@ void vtkSurfaceFEMAlgorithm::ComputeInside(
   gridfem::NameResults(vtkPolyData::GetData(inputs[0]), this->ResultPrefix, output);
 }
 
-/// Computes on several MPI ranks. All of them call it, also those without a piece of the surface.
-void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+/// Frees the stages of the other surface.
+/// @param isPiece  takes this rank's piece instead of the whole surface
+void vtkSurfaceFEMAlgorithm::UseSurface(bool isPiece)
 {
-  this->Blocks->RequireAligned();
-  const gridfem::Ranks ranks;
-  if (ranks.Any(this->GetAbortExecute() != 0))
-  {
-    throw gridfem::Aborted();
-  }
-  vtkInformationVector** surfaces = inputs;
-  vtkDataSet* piece = vtkDataSet::GetData(inputs[0]);
-  const bool isShared = ranks.Number(!gridfem::IsEmpty(piece)) > 1;
-  ranks.Together(
-    [&]
-    {
-      if (isShared)
-      {
-        gridfem::RequireNoVolume(piece);
-      }
-      if (piece && piece->GetNumberOfCells() > 0)
-      {
-        surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
-      }
-    });
-  if (this->TryTogether(surfaces, outputs))
-  {
-    this->Ranked->NoteComputed();
-    gridfem::ShareFieldArrays(
-      vtkDataObject::GetData(surfaces[0]), vtkDataObject::GetData(outputs, 0));
-    gridfem::StampTime(!this->OwnTimeSteps().empty(), surfaces[0], outputs);
-    return;
-  }
-  if (this->State->together.IsUsed())
+  if (this->State->UsesPiece() != isPiece)
   {
     this->FreeStages();
   }
-  this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,
-    this->OwnTimeSteps(),
-    [this](vtkInformationVector** gathered, vtkInformationVector* results)
-    {
-      this->ComputeSurface(gathered, results);
-      gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
-      return this->OwnTimeSteps();
-    });
-  // Otherwise the array of an earlier filter would stay.
-  vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
+  if (!isPiece)
+  {
+    this->State->UseWhole();
+  }
 }
 
-/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
-/// others.
-bool vtkSurfaceFEMAlgorithm::TryTogether(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkSurfaceFEMAlgorithm::WriteDepth(vtkInformationVector* outputs)
 {
-  try
+  const int depth = this->State->Surface().UsedDepth();
+  if (depth != gridfem::AutomaticDepth)
   {
-    if (!gridfem::CanDistribute(this, inputs, this->NeedsWholeSurface()))
-    {
-      vtkInformationVector** inside = inputs;
-      gridfem::Ranks().Together(
-        [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });
-      return this->ComputeTogether(inside, outputs);
-    }
-    this->State->RunTogether(
-      [&](const gridfem::Progress&) { this->ComputeInside(inputs, outputs); });
-    vtkPolyData* output = vtkPolyData::GetData(outputs);
-    gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
-    if (this->State->together.IsUsed())
-    {
-      gridfem::AddFieldInt(output, "UsedDepth", this->State->together.Depth());
-    }
-    return true;
-  }
-  catch (const gridfem::Aborted&)
-  {
-    throw;
-  }
-  catch (const gridfem::NeedsWholeSurface&)
-  {
-    this->FreeStages();
-    return false;
-  }
-  catch (...)
-  {
-    this->FreeStages();
-    throw;
+    gridfem::AddFieldInt(vtkPolyData::GetData(outputs), "UsedDepth", depth);
   }
 }
 
@@ -460,11 +316,6 @@ void vtkSurfaceFEMAlgorithm::Warn(const std::vector<std::string>& warnings)
       vtkWarningMacro(<< warning);
     }
   }
-}
-
-bool vtkSurfaceFEMAlgorithm::ComputeTogether(vtkInformationVector**, vtkInformationVector*)
-{
-  return false;
 }
 
 bool vtkSurfaceFEMAlgorithm::KeepsStages()

@@ -76,12 +76,12 @@ namespace gridfem
 class BlockTables;
 class Domain;
 class FailureDump;
+class FilterState;
 class InputBlocks;
 class InputTime;
 class JoinedBlocks;
 class RankedSurface;
 class SurfaceInput;
-class SurfaceSolverState;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceFEMAlgorithm : public vtkPolyDataAlgorithm
@@ -301,13 +301,6 @@ protected:
   void Warn(const std::vector<std::string>& warnings);
 
   /**
-   * Fills the outputs of several MPI ranks together, before the surface is gathered. Each rank
-   * calls it with its own piece. Returns the same on all ranks: true if the outputs are filled and
-   * nothing has to be gathered. Collective. The default returns false.
-   */
-  virtual bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
-
-  /**
    * Whether the results of a run stay for the next run. They stay without ReleaseDataFlag.
    */
   bool KeepsStages();
@@ -336,7 +329,7 @@ protected:
   bool BlocksAsOne = false;
   std::string ResultPrefix;
 
-  std::unique_ptr<gridfem::SurfaceSolverState> State;
+  std::unique_ptr<gridfem::FilterState> State;
 
 private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
@@ -350,6 +343,8 @@ private:
   void ComputeInside(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
   bool TryTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void UseSurface(bool isPiece);
+  void WriteDepth(vtkInformationVector* outputs);
   bool HasNoPoints(vtkInformationVector** inputs) const;
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);

@@ -1,8 +1,8 @@
 #include "vtkSurfaceGradient.h"
 
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Solvers/GradientSolver.h"
 
@@ -29,14 +29,14 @@ using Derived = gridfem::GradientSolver::Derived;
 
 /// Returns means on the cells of the input. A field at points alone has no columns. Collective.
 std::vector<gridfem::MultiVector> OnCells(const std::vector<Derived>& fields,
-  const gridfem::SurfaceSolverState& state, gridfem::Id numberOfCells)
+  const gridfem::InputSurface& surface, gridfem::Id numberOfCells)
 {
   std::vector<gridfem::MultiVector> onCells(fields.size());
   for (std::size_t k = 0; k < fields.size(); ++k)
   {
     if (fields[k].onTriangles.cols() > 0)
     {
-      onCells[k] = state.MeansOnCells(fields[k].onTriangles, numberOfCells);
+      onCells[k] = surface.MeansOnCells(fields[k].onTriangles, numberOfCells);
     }
   }
   return onCells;
@@ -75,20 +75,20 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  const gridfem::InputArray array = state.Find(0, "Array");
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  const gridfem::InputArray array = surface.Find(0, "Array");
   gridfem::GradientSolver::Options options;
   options.equation = state.options;
   options.hodgeDecomposition = this->HodgeDecomposition;
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::GradientSolver::Result& result = this->Data->Solver.Update(
-    state, { state.Given(array) }, options, { state.Threads(), progress.Part(0.0, 0.95) });
+    surface, { surface.Given(array) }, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   const gridfem::Id cells = input ? input->GetNumberOfCells() : 0;
-  const auto derivatives = OnCells(result.derivatives, state, cells);
-  const auto parts = OnCells(result.parts, state, cells);
-  state.Together(
+  const auto derivatives = OnCells(result.derivatives, surface, cells);
+  const auto parts = OnCells(result.parts, surface, cells);
+  surface.Together(
     [&]
     {
       if (input)

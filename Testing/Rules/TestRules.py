@@ -97,8 +97,7 @@ class Spaces(Rule):
     QUESTION = re.compile(r"FunctionSpace *[!=]=|[!=]= *(?:gridfem::)?FunctionKind::|"
                           r"FunctionKind::\w+ *[!=]=|case (?:gridfem::)?FunctionKind::")
     # They make spaces, estimate their memory before there are any, or say what would help.
-    KNOW_THE_KIND = MAKERS + ("vtkSurfaceFEMAlgorithm", "DistributedSurface", "Requirements",
-                              "SolveWarnings")
+    KNOW_THE_KIND = MAKERS + ("vtkSurfaceFEMAlgorithm", "Requirements", "SolveWarnings")
 
     def test_nobody_asks_which_space_there_is(self):
         offences = [f"{relative(p)}: {match.group()}"

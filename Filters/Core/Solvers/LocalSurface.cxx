@@ -9,7 +9,7 @@ namespace gridfem
 
 LocalSurface::LocalSurface(
   Stages& stages, std::shared_ptr<const TriangleMesh> mesh, SurfaceOptions options)
-  : Surface(stages), mesh_(std::move(mesh)), asked_(options), used_(options)
+  : Surface(stages), used_(options), mesh_(std::move(mesh)), asked_(options)
 {
 }
 
@@ -35,43 +35,91 @@ void LocalSurface::Build(const SurfaceOptions& asked, const Progress& progress)
 {
   StageKey key;
   key.Add(asked.space.depth).Add(asked.functionsPerPoint);
-  Stages& stages = this->GetStages();
-  stages.Run(SpaceStage, key,
+  this->GetStages().Run(SpaceStage, key,
     [&]
     {
-      space_ = nullptr;                            // frees its memory first
       TriangleRule(asked.choice.quadratureDegree); // refuses a wrong degree before the long work
       RequireSurface(*mesh_);
-      used_ = asked;
-      used_.space.depth =
-        ChooseDepth(*mesh_, asked.space.depth, asked.choice.kind, asked.functionsPerPoint);
-      RequireMemory(*mesh_, used_.space.depth, used_.choice.kind);
-      space_ = BuildSpace(*mesh_, used_.space, used_.choice, progress);
-      ++structure_;
+      this->FreeBasis(); // frees its memory first
+      this->BuildBasis(mesh_, asked, progress.Part(0.0, 0.6));
     });
-  key = {};
-  key.Add(stages.Version(SpaceStage));
-  stages.Run(SystemStage, key, [] {}); // made with the space
+  this->UpdateSpace({}, progress.Part(0.6, 1.0));
+}
+
+void LocalSurface::BuildBasis(const std::shared_ptr<const TriangleMesh>& mesh,
+  const SurfaceOptions& asked, const Progress& progress)
+{
+  used_ = asked;
+  used_.space.depth =
+    ChooseDepth(*mesh, asked.space.depth, asked.choice.kind, asked.functionsPerPoint);
+  RequireMemory(*mesh, used_.space.depth, asked.choice.kind);
+  basis_ = MakeSurfaceBasis(
+    mesh, BuildGridFunctions(*mesh, used_.space, progress), asked.space.weldCoincidentPoints);
+}
+
+void LocalSurface::UpdateSpace(const GivenMetric& metric, const Progress& progress)
+{
+  Stages& stages = this->GetStages();
+  const SpaceChoice& choice = used_.choice;
+  StageKey key;
+  key.Add(stages.Version(SpaceStage)).Add(choice.quadratureDegree).Add(choice.coarsestSize);
+  key.Add(choice.normalStabilization).Add(choice.kind).Add(metric.structure);
+  if (key != structureKey_)
+  {
+    structureKey_ = key;
+    ++structure_;
+  }
+  key.Add(metric.numbers);
+  if (stages.IsCurrent(SystemStage, key))
+  {
+    return;
+  }
+  metric_ = nullptr;
+  space_ = metric.make ? nullptr : FindSpace(basis_, choice);
+  if (space_)
+  {
+    stages.Adopt(SystemStage, key);
+    return;
+  }
+  stages.Run(SystemStage, key,
+    [&]
+    {
+      metric_ = metric.make ? metric.make() : nullptr;
+      space_ = MakeSpace(basis_, choice, this->MakeJob(progress.Part(0.0, 0.6)));
+      if (metric_)
+      {
+        std::shared_ptr<FiniteElementSpace> own = space_->Copy();
+        own->SetMetricOnTriangles(metric_, this->MakeJob(progress.Part(0.6, 1.0)));
+        space_ = own;
+      }
+    });
+}
+
+void LocalSurface::FreeBasis()
+{
+  basis_ = {};
+  space_ = nullptr;
 }
 
 double LocalSurface::Area() const
 {
-  return SurfaceArea(*mesh_);
+  return metric_ ? metric_->AreaOf(this->Mesh()) : SurfaceArea(this->Mesh());
 }
 
 double LocalSurface::LongestSide() const
 {
-  return space_->UnitLength() * space_->Extent();
+  const Grid& grid = basis_.space->GetGrid();
+  return grid.spacing * grid.CellsPerSide();
 }
 
 HeldValues LocalSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
-  return HoldPointsAndEdges(*space_, *mesh_, used_.space.weldCoincidentPoints, points, values);
+  return HoldPointsAndEdges(*space_, this->Mesh(), basis_.weldCoincidentPoints, points, values);
 }
 
 BoundaryTerms LocalSurface::OnBoundary(const MultiVector* flux, const MultiVector* values) const
 {
-  return TermsOnBoundary(*space_, *mesh_, used_.space.weldCoincidentPoints, flux, values);
+  return TermsOnBoundary(*space_, this->Mesh(), basis_.weldCoincidentPoints, flux, values);
 }
 
 std::vector<char> LocalSurface::PointsWithFunctions() const

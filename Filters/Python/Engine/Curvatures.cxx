@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/CurvatureSolver.h"
 
@@ -9,40 +7,27 @@ namespace gridfem
 namespace
 {
 
-class CurvaturesProblem : public Problem
+Results CurvaturesResults(const Given& given, const SurfaceOptions& surface,
+  const CurvatureSolver::Options& options, const Job& job)
 {
-public:
-  explicit CurvaturesProblem(Properties& properties)
+  CurvatureSolver::Result found = CurvatureSolver::Solve(given.mesh, options, surface, job);
+  Results results;
+  for (std::size_t k = 0; k < CurvatureSolver::Numbers.size(); ++k)
   {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
+    results.arrays[CurvatureSolver::Numbers[k]] = found.numbers.col(static_cast<Id>(k));
   }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    CurvatureSolver::Result found =
-      CurvatureSolver::Solve(given.mesh, options_, surface_, { 0, progress });
-    Results results;
-    for (std::size_t k = 0; k < CurvatureSolver::Numbers.size(); ++k)
-    {
-      results.arrays[CurvatureSolver::Numbers[k]] = found.numbers.col(static_cast<Id>(k));
-    }
-    results.arrays["MinimumCurvatureDirection"] = std::move(found.minimumDirection);
-    results.arrays["MaximumCurvatureDirection"] = std::move(found.maximumDirection);
-    results.Warn(found.warnings);
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = CurvatureSolver::SurfaceDefaults();
-  CurvatureSolver::Options options_;
-};
+  results.arrays["MinimumCurvatureDirection"] = std::move(found.minimumDirection);
+  results.arrays["MaximumCurvatureDirection"] = std::move(found.maximumDirection);
+  results.Warn(found.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeCurvatures(Properties& properties)
 {
-  return std::make_unique<CurvaturesProblem>(properties);
+  return MakeSolverProblem<CurvatureSolver>(
+    properties, CurvatureSolver::SurfaceDefaults(), &CurvaturesResults);
 }
 
 } // namespace gridfem

@@ -1,10 +1,7 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Base/VectorRows.h"
 #include "Solvers/DetailSolver.h"
-#include "Solvers/LocalSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,45 +11,30 @@ namespace gridfem
 namespace
 {
 
-class DetailProblem : public Problem
+Results DetailResults(const Given& given, const SurfaceOptions& surface,
+  const DetailSolver::Options& options, const Job& job)
 {
-public:
-  explicit DetailProblem(Properties& properties)
+  DetailSolver::Input input;
+  input.values = given.Field("values");
+  input.scale = given.Field("scales");
+  input.custom = [](double curvature) { return std::min(std::abs(curvature), 1.0); };
+  const DetailSolver::Result result = DetailSolver::Solve(given.mesh, input, options, surface, job);
+  Results results;
+  results.arrays["Points"] = RowsOf(result.points);
+  if (input.values)
   {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
+    results.arrays["Filtered"] = given.arrays.at("values").values + result.change;
   }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    Stages stages;
-    LocalSurface surface(stages, given.mesh, surface_);
-    DetailSolver::Input input;
-    input.values = given.Field("values");
-    input.scale = given.Field("scales");
-    input.custom = [](double curvature) { return std::min(std::abs(curvature), 1.0); };
-    DetailSolver solver;
-    const DetailSolver::Result& result = solver.Update(surface, input, options_, { 0, progress });
-    Results results;
-    results.arrays["Points"] = RowsOf(result.points);
-    if (input.values)
-    {
-      results.arrays["Filtered"] = given.arrays.at("values").values + result.change;
-    }
-    results.Warn(result.warnings);
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = DetailSolver::SurfaceDefaults();
-  DetailSolver::Options options_;
-};
+  results.Warn(result.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeDetail(Properties& properties)
 {
-  return std::make_unique<DetailProblem>(properties);
+  return MakeSolverProblem<DetailSolver>(
+    properties, DetailSolver::SurfaceDefaults(), &DetailResults);
 }
 
 } // namespace gridfem

@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/DiffusionSolver.h"
 #include "Solvers/LocalSurface.h"
@@ -10,41 +8,28 @@ namespace gridfem
 namespace
 {
 
-class DiffusionProblem : public Problem
+Results DiffusionResults(const Given& given, const SurfaceOptions& discretized,
+  const DiffusionSolver::Options& options, const Job& job)
 {
-public:
-  explicit DiffusionProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    Stages stages;
-    LocalSurface surface(stages, given.mesh, surface_);
-    DiffusionSolver solver;
-    const DiffusionSolver::Result& result = solver.Update(surface,
-      { given.Field("values"), given.Field("source"), given.Constraints("held") }, options_,
-      { 0, progress });
-    Results results;
-    MultiVector diffused = result.steps.back().atPoints;
-    given.KeepPlaces("values", diffused);
-    results.arrays["Diffused"] = std::move(diffused);
-    results.Warn(solver.Warnings(options_.numberOfSteps));
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = DiffusionSolver::SurfaceDefaults();
-  DiffusionSolver::Options options_;
-};
+  Stages stages;
+  LocalSurface surface(stages, given.mesh, discretized);
+  DiffusionSolver solver;
+  const DiffusionSolver::Result& result = solver.Update(surface,
+    { given.Field("values"), given.Field("source"), given.Constraints("held") }, options, job);
+  Results results;
+  MultiVector diffused = result.steps.back().atPoints;
+  given.KeepPlaces("values", diffused);
+  results.arrays["Diffused"] = std::move(diffused);
+  results.Warn(solver.Warnings(options.numberOfSteps));
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeDiffusion(Properties& properties)
 {
-  return std::make_unique<DiffusionProblem>(properties);
+  return MakeSolverProblem<DiffusionSolver>(
+    properties, DiffusionSolver::SurfaceDefaults(), &DiffusionResults);
 }
 
 } // namespace gridfem

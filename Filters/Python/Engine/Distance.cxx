@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/DistanceSolver.h"
 
@@ -9,42 +7,30 @@ namespace gridfem
 namespace
 {
 
-class DistanceProblem : public Problem
+Results DistanceResults(const Given& given, const SurfaceOptions& surface,
+  const DistanceSolver::Options& options, const Job& job)
 {
-public:
-  explicit DistanceProblem(Properties& properties)
+  DistanceSolver::Input input;
+  input.ids = given.sources;
+  input.labels = given.Field("labels");
+  const DistanceSolver::Result result =
+    DistanceSolver::Solve(given.mesh, input, options, surface, job);
+  Results results;
+  results.arrays["Distance"] = result.atPoints;
+  if (options.nearestSource)
   {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
+    results.arrays["NearestSource"] = ColumnOf(result.nearest);
   }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    DistanceSolver::Input input;
-    input.ids = given.sources;
-    input.labels = given.Field("labels");
-    const DistanceSolver::Result result =
-      DistanceSolver::Solve(given.mesh, input, options_, surface_, { 0, progress });
-    Results results;
-    results.arrays["Distance"] = result.atPoints;
-    if (options_.nearestSource)
-    {
-      results.arrays["NearestSource"] = ColumnOf(result.nearest);
-    }
-    results.warnings = result.warnings;
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = DistanceSolver::SurfaceDefaults();
-  DistanceSolver::Options options_;
-};
+  results.warnings = result.warnings;
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeDistance(Properties& properties)
 {
-  return std::make_unique<DistanceProblem>(properties);
+  return MakeSolverProblem<DistanceSolver>(
+    properties, DistanceSolver::SurfaceDefaults(), &DistanceResults);
 }
 
 } // namespace gridfem

@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/FarthestPointsSolver.h"
 
@@ -9,37 +7,25 @@ namespace gridfem
 namespace
 {
 
-class FarthestPointsProblem : public Problem
+Results FarthestPointsResults(const Given& given, const SurfaceOptions& surface,
+  const FarthestPointsSolver::Options& options, const Job& job)
 {
-public:
-  explicit FarthestPointsProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    const FarthestPointsSolver::Result result =
-      FarthestPointsSolver::Solve(given.mesh, options_, surface_, { 0, progress });
-    Results results;
-    results.arrays["Distance"] = result.atPoints;
-    results.arrays["NearestPoint"] = ColumnOf(result.nearest);
-    results.arrays["FarthestPoints"] = ColumnOf(result.points);
-    results.warnings = result.warnings;
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = FarthestPointsSolver::SurfaceDefaults();
-  FarthestPointsSolver::Options options_;
-};
+  const FarthestPointsSolver::Result result =
+    FarthestPointsSolver::Solve(given.mesh, options, surface, job);
+  Results results;
+  results.arrays["Distance"] = result.atPoints;
+  results.arrays["NearestPoint"] = ColumnOf(result.nearest);
+  results.arrays["FarthestPoints"] = ColumnOf(result.points);
+  results.warnings = result.warnings;
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties)
 {
-  return std::make_unique<FarthestPointsProblem>(properties);
+  return MakeSolverProblem<FarthestPointsSolver>(
+    properties, FarthestPointsSolver::SurfaceDefaults(), &FarthestPointsResults);
 }
 
 } // namespace gridfem

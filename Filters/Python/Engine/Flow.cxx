@@ -1,45 +1,28 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Base/VectorRows.h"
 #include "Solvers/FlowSolver.h"
-#include "Solvers/LocalSurface.h"
 
 namespace gridfem
 {
 namespace
 {
 
-class FlowProblem : public Problem
+Results FlowResults(const Given& given, const SurfaceOptions& surface,
+  const FlowSolver::Options& options, const Job& job)
 {
-public:
-  explicit FlowProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    Results results;
-    std::vector<Vec3> points;
-    results.Warn(
-      FlowSolver::Solve(given.mesh, options_, points, surface_, { 0, progress }).warnings);
-    results.arrays["Points"] = RowsOf(points);
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_;
-  FlowSolver::Options options_;
-};
+  Results results;
+  std::vector<Vec3> points;
+  results.Warn(FlowSolver::Solve(given.mesh, options, points, surface, job).warnings);
+  results.arrays["Points"] = RowsOf(points);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeFlow(Properties& properties)
 {
-  return std::make_unique<FlowProblem>(properties);
+  return MakeSolverProblem<FlowSolver>(properties, SurfaceOptions(), &FlowResults);
 }
 
 } // namespace gridfem

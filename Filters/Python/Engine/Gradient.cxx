@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/GradientSolver.h"
 
@@ -9,41 +7,29 @@ namespace gridfem
 namespace
 {
 
-class GradientProblem : public Problem
+Results GradientResults(const Given& given, const SurfaceOptions& surface,
+  const GradientSolver::Options& options, const Job& job)
 {
-public:
-  explicit GradientProblem(Properties& properties)
+  GradientSolver::Result found =
+    GradientSolver::Solve(given.mesh, { given.Field("values") }, options, surface, job);
+  Results results;
+  for (std::vector<GradientSolver::Derived>* fields : { &found.derivatives, &found.parts })
   {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    GradientSolver::Result found = GradientSolver::Solve(
-      given.mesh, { given.Field("values") }, options_, surface_, { 0, progress });
-    Results results;
-    for (std::vector<GradientSolver::Derived>* fields : { &found.derivatives, &found.parts })
+    for (GradientSolver::Derived& field : *fields)
     {
-      for (GradientSolver::Derived& field : *fields)
-      {
-        results.arrays[field.name] = std::move(field.atPoints);
-      }
+      results.arrays[field.name] = std::move(field.atPoints);
     }
-    results.Warn(found.warnings);
-    return results;
   }
-
-private:
-  SurfaceOptions surface_ = GradientSolver::SurfaceDefaults();
-  GradientSolver::Options options_;
-};
+  results.Warn(found.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeGradient(Properties& properties)
 {
-  return std::make_unique<GradientProblem>(properties);
+  return MakeSolverProblem<GradientSolver>(
+    properties, GradientSolver::SurfaceDefaults(), &GradientResults);
 }
 
 } // namespace gridfem

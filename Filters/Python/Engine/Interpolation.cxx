@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/InterpolationSolver.h"
 
@@ -9,37 +7,25 @@ namespace gridfem
 namespace
 {
 
-class InterpolationProblem : public Problem
+Results InterpolationResults(const Given& given, const SurfaceOptions& surface,
+  const InterpolationSolver::Options& options, const Job& job)
 {
-public:
-  explicit InterpolationProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    InterpolationSolver::Input input;
-    input.values.find = [&given] { return given.KnownValues(nullptr); };
-    const InterpolationSolver::Result result =
-      InterpolationSolver::Solve(given.mesh, input, options_, surface_, { 0, progress });
-    Results results;
-    results.arrays["Interpolated"] = result.atPoints;
-    results.warnings = result.warnings;
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = InterpolationSolver::SurfaceDefaults();
-  InterpolationSolver::Options options_;
-};
+  InterpolationSolver::Input input;
+  input.values.find = [&given] { return given.KnownValues(nullptr); };
+  const InterpolationSolver::Result result =
+    InterpolationSolver::Solve(given.mesh, input, options, surface, job);
+  Results results;
+  results.arrays["Interpolated"] = result.atPoints;
+  results.warnings = result.warnings;
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties)
 {
-  return std::make_unique<InterpolationProblem>(properties);
+  return MakeSolverProblem<InterpolationSolver>(
+    properties, InterpolationSolver::SurfaceDefaults(), &InterpolationResults);
 }
 
 } // namespace gridfem

@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/SignatureSolver.h"
 
@@ -9,36 +7,24 @@ namespace gridfem
 namespace
 {
 
-class SignatureProblem : public Problem
+Results SignaturesResults(const Given& given, const SurfaceOptions& surface,
+  const SignatureSolver::Options& options, const Job& job)
 {
-public:
-  explicit SignatureProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    SignatureSolver::Result signatures =
-      SignatureSolver::Solve(given.mesh, {}, options_, surface_, { 0, progress });
-    Results results;
-    results.arrays["HeatKernelSignature"] = std::move(signatures.heatKernel);
-    results.arrays["WaveKernelSignature"] = std::move(signatures.waveKernel);
-    results.Warn(signatures.warnings);
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = SignatureSolver::SurfaceDefaults();
-  SignatureSolver::Options options_;
-};
+  SignatureSolver::Result signatures =
+    SignatureSolver::Solve(given.mesh, {}, options, surface, job);
+  Results results;
+  results.arrays["HeatKernelSignature"] = std::move(signatures.heatKernel);
+  results.arrays["WaveKernelSignature"] = std::move(signatures.waveKernel);
+  results.Warn(signatures.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeSignatures(Properties& properties)
 {
-  return std::make_unique<SignatureProblem>(properties);
+  return MakeSolverProblem<SignatureSolver>(
+    properties, SignatureSolver::SurfaceDefaults(), &SignaturesResults);
 }
 
 } // namespace gridfem

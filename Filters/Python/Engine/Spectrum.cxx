@@ -1,6 +1,4 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
 #include "Solvers/SpectrumSolver.h"
 
@@ -9,37 +7,24 @@ namespace gridfem
 namespace
 {
 
-class SpectrumProblem : public Problem
+Results SpectrumResults(const Given& given, const SurfaceOptions& surface,
+  const SpectrumSolver::Options& options, const Job& job)
 {
-public:
-  explicit SpectrumProblem(Properties& properties)
-  {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    SpectrumSolver::Result spectrum =
-      SpectrumSolver::Solve(given.mesh, {}, options_, surface_, { 0, progress });
-    Results results;
-    results.arrays["Modes"] = std::move(spectrum.atPoints);
-    results.arrays["Eigenvalues"] =
-      Eigen::Map<const Eigen::VectorXd>(spectrum.eigenvalues.data(), spectrum.NumberOfModes());
-    results.Warn(spectrum.warnings);
-    return results;
-  }
-
-private:
-  SurfaceOptions surface_ = SpectrumSolver::SurfaceDefaults();
-  SpectrumSolver::Options options_;
-};
+  SpectrumSolver::Result spectrum = SpectrumSolver::Solve(given.mesh, {}, options, surface, job);
+  Results results;
+  results.arrays["Modes"] = std::move(spectrum.atPoints);
+  results.arrays["Eigenvalues"] =
+    Eigen::Map<const Eigen::VectorXd>(spectrum.eigenvalues.data(), spectrum.NumberOfModes());
+  results.Warn(spectrum.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeSpectrum(Properties& properties)
 {
-  return std::make_unique<SpectrumProblem>(properties);
+  return MakeSolverProblem<SpectrumSolver>(
+    properties, SpectrumSolver::SurfaceDefaults(), &SpectrumResults);
 }
 
 } // namespace gridfem

@@ -1,8 +1,5 @@
-#include "Given.h"
-#include "Problem.h"
-#include "SolverProperties.h"
+#include "SolverProblem.h"
 
-#include "Solvers/LocalSurface.h"
 #include "Solvers/StitchSolver.h"
 
 namespace gridfem
@@ -10,47 +7,33 @@ namespace gridfem
 namespace
 {
 
-class StitchingProblem : public Problem
+Results StitchingResults(const Given& given, const SurfaceOptions& surface,
+  const StitchSolver::Options& options, const Job& job)
 {
-public:
-  explicit StitchingProblem(Properties& properties)
+  SurfaceOptions asked = surface;
+  asked.functionsPerPoint = StitchSolver::FunctionsPerPoint(options);
+  StitchSolver::Result result = StitchSolver::Solve(
+    given.mesh, { given.Field("colors"), given.Field("labels") }, options, asked, job);
+  Results results;
+  if (given.arrays.at("colors").isOnPoints)
   {
-    TakeSurfaceOptions(properties, surface_);
-    TakeOptions(properties, options_);
-    surface_.functionsPerPoint = StitchSolver::FunctionsPerPoint(options_);
+    given.KeepUnsolved("colors", result.isReached, result.values);
+    results.arrays["StitchedColors"] = std::move(result.values);
   }
-
-  Results Solve(const Given& given, const Progress& progress) const override
+  else
   {
-    Stages stages;
-    LocalSurface surface(stages, given.mesh, surface_);
-    StitchSolver solver;
-    StitchSolver::Result result = solver.Update(
-      surface, { given.Field("colors"), given.Field("labels") }, options_, { 0, progress });
-    Results results;
-    if (given.arrays.at("colors").isOnPoints)
-    {
-      given.KeepUnsolved("colors", result.isReached, result.values);
-      results.arrays["StitchedColors"] = std::move(result.values);
-    }
-    else
-    {
-      results.arrays["StitchedColors"] = given.MeansOnCells(result.values);
-    }
-    results.Warn(result.warnings);
-    return results;
+    results.arrays["StitchedColors"] = given.MeansOnCells(result.values);
   }
-
-private:
-  SurfaceOptions surface_ = StitchSolver::SurfaceDefaults();
-  StitchSolver::Options options_;
-};
+  results.Warn(result.warnings);
+  return results;
+}
 
 } // namespace
 
 std::unique_ptr<Problem> MakeStitching(Properties& properties)
 {
-  return std::make_unique<StitchingProblem>(properties);
+  return MakeSolverProblem<StitchSolver>(
+    properties, StitchSolver::SurfaceDefaults(), &StitchingResults);
 }
 
 } // namespace gridfem

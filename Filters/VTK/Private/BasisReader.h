@@ -13,6 +13,9 @@ class vtkPolyData;
 namespace gridfem
 {
 
+constexpr const char* NoBasisText = "The second input is not the output of a basis filter: the "
+                                    "arrays 'PatchBasisIds' and 'PatchId' are missing.";
+
 /// Returns all octree cells of a clip, ascending. Throws InvalidInput if its tables do not fit.
 std::vector<MortonKey> ReadOctreeCells(vtkPolyData* data);
 

@@ -1,6 +1,7 @@
 #include "CanDistribute.h"
 
 #include "BasisReader.h"
+#include "InputSurface.h"
 #include "Ranks.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -10,6 +11,8 @@
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 #if GRIDFEM_HAS_PARALLEL
+#include "PieceSurface.h"
+
 #include "vtkMPIController.h"
 #endif
 
@@ -60,6 +63,19 @@ bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 }
 
 } // namespace
+
+#if GRIDFEM_HAS_PARALLEL
+std::unique_ptr<InputSurface> MakePieceSurface(
+  Stages& stages, vtkAlgorithm* filter, const FilterOptions& options)
+{
+  return std::make_unique<PieceSurface>(stages, filter, options);
+}
+#else
+std::unique_ptr<InputSurface> MakePieceSurface(Stages&, vtkAlgorithm*, const FilterOptions&)
+{
+  return nullptr;
+}
+#endif
 
 bool HasPolygons(vtkPolyData* piece)
 {

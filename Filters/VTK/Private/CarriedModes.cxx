@@ -1,10 +1,9 @@
 #include "CarriedModes.h"
 
 #include "CanDistribute.h"
-#include "ClippedArrays.h"
+#include "InputSurface.h"
 #include "ModeCheck.h"
 #include "ModeReader.h"
-#include "SurfaceSolverState.h"
 
 #include "vtkPolyData.h"
 
@@ -12,33 +11,33 @@
 
 namespace gridfem
 {
-GivenModes CarriedModes::Update(SurfaceSolverState& state, vtkPolyData* input)
+
+GivenModes CarriedModes::Update(InputSurface& surface, vtkPolyData* input)
 {
-  const bool isAsked = !state.IsShared() || HasPolygons(input);
-  if (state.Any(isAsked && !CarriesModes(input)))
+  const bool isAsked = !surface.IsShared() || HasPolygons(input);
+  if (surface.Any(isAsked && !CarriesModes(input)))
   {
     *this = {};
     return {};
   }
   StageKey key;
-  key.Add(state.IsShared());
+  key.Add(surface.IsShared());
   if (isAsked)
   {
     AddMesh(key, input);
     AddModeArrays(key, input);
   }
-  if (!state.Any(!given_ || given_.version != key))
+  if (!surface.Any(!given_ || given_.version != key))
   {
     return given_;
   }
-  if (!state.Any(misfit_.empty() || foreignKey_ != key))
+  if (!surface.Any(misfit_.empty() || foreignKey_ != key))
   {
     return {};
   }
   *this = {};
-  auto modes = std::make_shared<PointModes>(
-    state.IsShared() ? this->ReadTogether(state, input) : this->Read(state, input));
-  misfit_ = FindMisfit(*mesh_.triangles, *modes, state.Threads(), state.SumsOverProcesses());
+  auto modes = std::make_shared<PointModes>(this->Read(surface, input));
+  misfit_ = FindMisfit(*mesh_.triangles, *modes, surface.Threads(), surface.SumsOverProcesses());
   if (misfit_.empty())
   {
     given_ = { mesh_.triangles, std::move(modes), key };
@@ -50,29 +49,24 @@ GivenModes CarriedModes::Update(SurfaceSolverState& state, vtkPolyData* input)
   return given_;
 }
 
-PointModes CarriedModes::Read(SurfaceSolverState& state, vtkPolyData* input)
+PointModes CarriedModes::Read(InputSurface& surface, vtkPolyData* input)
 {
-  mesh_ = state.ReadMeshOf(input, {});
-  RequireSurface(*mesh_.triangles);
-  return ReadModes(input, mesh_);
-}
-
-PointModes CarriedModes::ReadTogether(SurfaceSolverState& state, vtkPolyData* piece)
-{
-  DistributedSurface& together = state.together;
-  mesh_ = together.ReadPieces(piece, !state.Any(piece && CarriesBasis(piece)), state.Threads());
+  mesh_ = surface.ReadTriangles();
   PointModes modes;
-  state.Together(
+  surface.Together(
     [&]
     {
-      if (HasPolygons(piece))
+      if (HasPolygons(input))
       {
-        modes = ReadModes(piece, together.WithCopies(mesh_));
+        modes = ReadModes(input, surface.WithCopies(mesh_));
       }
     });
-  together.Agree(modes.eigenvalues);
-  modes.area = together.Area();
-  if (!HasPolygons(piece))
+  if (surface.IsShared())
+  {
+    surface.Agree(modes.eigenvalues);
+    modes.area = surface.Area();
+  }
+  if (!HasPolygons(input))
   {
     modes.values.setZero(
       static_cast<Id>(mesh_.triangles->points.size()), static_cast<Id>(modes.eigenvalues.size()));

@@ -14,15 +14,15 @@ class vtkPolyData;
 namespace gridfem
 {
 
-class SurfaceSolverState;
+class InputSurface;
 
 class CarriedModes
 {
 public:
   /// Returns no modes if the input carries none, or if they belong to another shape. Collective.
   /// Throws InvalidInput for arrays that do not fit.
-  /// @param input  the rank's own piece, which may be null
-  GivenModes Update(SurfaceSolverState& state, vtkPolyData* input);
+  /// @param input  that of the surface: on a rank its own piece, which may be null
+  GivenModes Update(InputSurface& surface, vtkPolyData* input);
 
   /// The reason why the modes belong to another shape. Empty if they do not.
   const std::string& Misfit() const { return misfit_; }
@@ -31,8 +31,7 @@ public:
   const InputMesh& Mesh() const { return mesh_; }
 
 private:
-  PointModes Read(SurfaceSolverState& state, vtkPolyData* input);
-  PointModes ReadTogether(SurfaceSolverState& state, vtkPolyData* piece);
+  PointModes Read(InputSurface& surface, vtkPolyData* input);
 
   InputMesh mesh_;
   GivenModes given_;

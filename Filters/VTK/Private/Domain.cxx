@@ -1,8 +1,8 @@
 #include "Domain.h"
 
 #include "InformationCopy.h"
+#include "InputSurface.h"
 #include "PieceArrays.h"
-#include "SurfaceSolverState.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"

@@ -2,8 +2,8 @@
 
 #include "CellCorners.h"
 #include "DataMessage.h"
+#include "InputSurface.h"
 #include "PieceJoiner.h"
-#include "SurfaceSolverState.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

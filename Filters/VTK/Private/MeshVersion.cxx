@@ -1,6 +1,6 @@
 #include "MeshVersion.h"
 
-#include "SurfaceSolverState.h"
+#include "InputSurface.h"
 
 #include "vtkPolyData.h"
 

@@ -1,8 +1,8 @@
 #include "PieceJoiner.h"
 
-#include "Allocation.h"
 #include "Base/Errors.h"
 #include "Grid/TriangleMesh.h"
+#include "JoinedPieces.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -61,10 +61,10 @@ PieceJoiner::PieceJoiner(Pieces pieces, std::vector<std::string> owners, bool we
   vtkNew<vtkPoints> points;
   points->SetData(vtkDataArray::SafeDownCast(Pick(coordinates, points_, pointSource_)));
   whole_->SetPoints(points);
-  this->WriteCells();
-  this->WriteArrays(ofPoints, points_, pointSource_, &PointDataOf);
-  this->WriteArrays(ofCells, cells_, cellSource_, &CellDataOf);
-  this->WriteHiddenCells();
+  WriteJoinedCells(pieces_, points_, pointPlace_, cellSource_, kindEnd_, whole_);
+  WriteJoinedArrays(pieces_, ofPoints, points_, pointSource_, &PointDataOf, whole_);
+  WriteJoinedArrays(pieces_, ofCells, cells_, cellSource_, &CellDataOf, whole_);
+  WriteHiddenCells(pieces_, cells_, cellSource_, whole_);
 }
 
 GatheredSurface PieceJoiner::Result()
@@ -378,87 +378,6 @@ void PieceJoiner::FindCopiedCells()
       const auto found = places.find(corners);
       cellPlace_[cell] = found == places.end() ? -1 : found->second;
     });
-}
-
-void PieceJoiner::WriteCells()
-{
-  std::vector<vtkIdType> begin{ 0 }; // of the corners of a cell
-  std::vector<vtkIdType> corners;
-  begin.reserve(cells_.Count() + 1);
-  for (std::size_t p = 0; p < pieces_.size(); ++p)
-  {
-    ForEachCell(pieces_[p],
-      [&](vtkIdType, const vtkIdType* ids, vtkIdType size)
-      {
-        for (vtkIdType k = 0; k < size; ++k)
-        {
-          corners.push_back(pointPlace_[points_.first[p] + ids[k]]);
-        }
-        begin.push_back(static_cast<vtkIdType>(corners.size()));
-      });
-  }
-  std::array<vtkSmartPointer<vtkCellArray>, CellKinds> kinds;
-  vtkIdType place = 0;
-  for (int kind = 0; kind < CellKinds; ++kind)
-  {
-    kinds[kind] = vtkSmartPointer<vtkCellArray>::New();
-    vtkIdType size = 0;
-    for (vtkIdType k = place; k < kindEnd_[kind]; ++k)
-    {
-      size += begin[cellSource_[k] + 1] - begin[cellSource_[k]];
-    }
-    ReserveCells(kinds[kind], kindEnd_[kind] - place, size);
-    for (; place < kindEnd_[kind]; ++place)
-    {
-      const vtkIdType cell = cellSource_[place];
-      kinds[kind]->InsertNextCell(begin[cell + 1] - begin[cell], corners.data() + begin[cell]);
-    }
-  }
-  whole_->SetVerts(kinds[0]);
-  whole_->SetLines(kinds[1]);
-  whole_->SetPolys(kinds[2]);
-  whole_->SetStrips(kinds[3]);
-}
-
-void PieceJoiner::WriteArrays(const std::vector<ArraysOfPieces>& arrays, const Numbering& numbering,
-  const std::vector<vtkIdType>& sources, AttributesOf attributesOf)
-{
-  vtkDataSetAttributes* data = attributesOf(whole_);
-  for (const ArraysOfPieces& array : arrays)
-  {
-    data->AddArray(Pick(array, numbering, sources));
-  }
-  vtkDataSetAttributes* first = attributesOf(pieces_.front());
-  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-  {
-    vtkAbstractArray* active = first->GetAbstractAttribute(type);
-    if (active && active->GetName() && data->HasArray(active->GetName()))
-    {
-      data->SetActiveAttribute(active->GetName(), type);
-    }
-  }
-}
-
-/// Marks hidden cells: they stay, and stay hidden.
-void PieceJoiner::WriteHiddenCells()
-{
-  vtkNew<vtkUnsignedCharArray> hidden;
-  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
-  SetTuples(hidden, static_cast<vtkIdType>(cellSource_.size()));
-  unsigned char* next = hidden->GetPointer(0);
-  bool isAny = false;
-  for (const vtkIdType cell : cellSource_)
-  {
-    const std::size_t p = cells_.PieceOf(cell);
-    auto* ghosts = GhostsOf(pieces_[p]->GetCellData(), cells_.first[p + 1] - cells_.first[p]);
-    const unsigned char flag = ghosts ? ghosts->GetValue(cell - cells_.first[p]) : 0;
-    *next++ = flag;
-    isAny = isAny || flag != 0;
-  }
-  if (isAny)
-  {
-    whole_->GetCellData()->AddArray(hidden);
-  }
 }
 
 } // namespace gridfem

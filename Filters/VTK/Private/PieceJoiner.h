@@ -48,11 +48,6 @@ private:
   void ForEachCellThat(bool isCopied, Body&& body) const;
   void FindCopiedCells();
 
-  void WriteCells();
-  void WriteHiddenCells();
-  void WriteArrays(const std::vector<ArraysOfPieces>& arrays, const Numbering& numbering,
-    const std::vector<vtkIdType>& sources, AttributesOf attributesOf);
-
   Pieces pieces_;
   std::vector<std::string> owners_;
   Numbering points_;

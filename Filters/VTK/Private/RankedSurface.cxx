@@ -3,7 +3,6 @@
 #include "Allocation.h"
 #include "InformationCopy.h"
 #include "RankedOutput.h"
-#include "SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 

@@ -1,5 +1,3 @@
-#if GRIDFEM_HAS_PARALLEL
-
 #include "ReceivedArrays.h"
 
 #include "DataMessage.h"
@@ -264,5 +262,3 @@ void SendArrays(const Communicator& ranks, const Redistribution& distribution, v
 }
 
 } // namespace gridfem
-
-#endif

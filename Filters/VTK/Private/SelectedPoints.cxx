@@ -1,8 +1,8 @@
 #include "SelectedPoints.h"
 
-#include "DistributedSurface.h"
 #include "JoinedBlocks.h"
 #include "Ranks.h"
+#include "Solvers/Surface.h"
 
 #include "Base/Errors.h"
 
@@ -236,11 +236,6 @@ std::vector<char> PointsOf(vtkDataSet* part, vtkPolyData* surface)
 
 } // namespace
 
-void SelectedPoints::Extract(vtkSelection* selection)
-{
-  this->ExtractFrom(whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0), selection);
-}
-
 /// Returns a data set of the input, with `vtkInsidedness`. Null if nothing of it is selected.
 vtkDataSet* SelectedPoints::PartOf(vtkDataObject* block) const
 {
@@ -274,7 +269,7 @@ std::vector<char> SelectedPoints::PointsOfBlocks(const JoinedBlocks& joined) con
 }
 
 /// Extracts again only if data or selection have changed.
-void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
+void SelectedPoints::Extract(vtkDataObject* data, vtkSelection* selection)
 {
   const auto dataTime = static_cast<std::int64_t>(data->GetMTime());
   const auto selectionTime = static_cast<std::int64_t>(selection->GetMTime());
@@ -340,38 +335,31 @@ void SelectedPoints::Free()
 }
 
 void SelectedPoints::Update(
-  vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
+  const Surface& surface, vtkSelection* selection, vtkPolyData* input, const JoinedBlocks* joined)
 {
-  std::vector<char> isSelected;
-  if (selection)
+  if (selection && !surface.IsShared())
   {
-    RequireOneProcess("A Selection"); // the surface is that of all ranks
-    isSelected = this->Evaluate(selection, surface, joined);
+    RequireOneProcess("A Selection"); // the surface is gathered from all ranks
   }
-  else
-  {
-    this->Free();
-  }
-  this->Take(selection != nullptr, std::move(isSelected));
-}
-
-void SelectedPoints::UpdateTogether(
-  const DistributedSurface& together, vtkSelection* selection, vtkPolyData* piece)
-{
-  const bool isGiven = together.Any(selection != nullptr);
+  const bool isGiven = surface.Any(selection != nullptr);
   std::vector<char> isSelected;
-  together.Together(
+  surface.Together(
     [&]
     {
-      if (selection && piece)
+      if (selection && input)
       {
-        isSelected = this->Evaluate(selection, piece, nullptr);
+        isSelected = this->Evaluate(selection, input, joined);
         return;
       }
       this->Free();
-      isSelected.assign(isGiven && piece ? piece->GetNumberOfPoints() : 0, 0);
+      isSelected.assign(isGiven && input ? input->GetNumberOfPoints() : 0, 0);
     });
-  this->Take(isGiven, std::move(isSelected));
+  if (isGiven_ != isGiven || isSelected_ != isSelected)
+  {
+    ++version_;
+  }
+  isGiven_ = isGiven;
+  isSelected_ = std::move(isSelected);
 }
 
 std::vector<char> SelectedPoints::Evaluate(
@@ -383,21 +371,11 @@ std::vector<char> SelectedPoints::Evaluate(
     return std::vector<char>(whole->GetNumberOfPoints(), 0);
   }
   Validate(selection);
-  this->Extract(selection);
+  this->Extract(whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0), selection);
   vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
   return joined ? this->PointsOfBlocks(*joined)
          : part ? PointsOf(part, surface)
                 : std::vector<char>(surface->GetNumberOfPoints(), 0);
-}
-
-void SelectedPoints::Take(bool isGiven, std::vector<char> isSelected)
-{
-  if (isGiven_ != isGiven || isSelected_ != isSelected)
-  {
-    ++version_;
-  }
-  isGiven_ = isGiven;
-  isSelected_ = std::move(isSelected);
 }
 
 std::vector<Id> SelectedPoints::Ids(const TriangleMesh& mesh) const

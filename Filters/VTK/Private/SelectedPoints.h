@@ -19,8 +19,8 @@ class vtkSelection;
 namespace gridfem
 {
 
-class DistributedSurface;
 class JoinedBlocks;
+class Surface;
 
 /// The selected points. vtkExtractSelection evaluates the selection on the data set of the filter's
 /// input port 0. For composite data it takes the whole input, so that ids refer to their block. A
@@ -33,21 +33,17 @@ public:
   SelectedPoints(const SelectedPoints&) = delete;
   SelectedPoints& operator=(const SelectedPoints&) = delete;
 
-  /// Evaluates a selection.
+  /// Evaluates a selection. On a shared surface each rank evaluates it on its own piece, and the
+  /// selection of one rank applies on all.
   /// @param selection  null: there is none
-  /// @param surface    the filter's input, or the surface of it with `vtkOriginalPointIds` and
-  /// `vtkOriginalCellIds`
+  /// @param input      the filter's input, or the surface of it with `vtkOriginalPointIds` and
+  /// `vtkOriginalCellIds`; null: an empty piece
   /// @param joined     the blocks that the surface is joined from; null: it is one block
   /// Throws InvalidInput for a selection of anything but points or cells, or of a kind that cannot
-  /// be evaluated.
-  void Update(vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined = nullptr);
-
-  /// Selects points of this rank's own piece, which the rank evaluates alone. The selection of one
-  /// rank applies on all. Collective, within DistributedSurface::Run. It also throws for a query,
-  /// which may depend on the data of other ranks.
-  /// @param piece  as `surface`; may be null
-  void UpdateTogether(
-    const DistributedSurface& together, vtkSelection* selection, vtkPolyData* piece);
+  /// be evaluated. Ranks also refuse a query, which may depend on the data of other ranks, and any
+  /// selection on a gathered surface. Collective on a shared surface.
+  void Update(const Surface& surface, vtkSelection* selection, vtkPolyData* input,
+    const JoinedBlocks* joined = nullptr);
 
   /// Frees the data that the next update could reuse.
   void Free();
@@ -68,11 +64,9 @@ public:
 private:
   std::vector<char> Evaluate(
     vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined);
-  void Take(bool isGiven, std::vector<char> isSelected);
-  void Extract(vtkSelection* selection);
   vtkDataSet* PartOf(vtkDataObject* block) const;
   std::vector<char> PointsOfBlocks(const JoinedBlocks& joined) const;
-  void ExtractFrom(vtkDataObject* data, vtkSelection* selection);
+  void Extract(vtkDataObject* data, vtkSelection* selection);
 
   vtkAlgorithm* filter_;
   unsigned long observers_[2] = { 0, 0 };

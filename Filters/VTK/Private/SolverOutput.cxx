@@ -66,12 +66,6 @@ void AddFieldInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
-void AddDistributed(int depth, vtkPolyData* output)
-{
-  AddFieldInt(output, "UsedDepth", depth);
-  AddFieldInt(output, DistributedName, 1);
-}
-
 void AddFieldNumber(vtkPolyData* output, const char* name, double value)
 {
   AddFieldNumbers(output, name, { value });

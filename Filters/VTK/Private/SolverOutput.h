@@ -51,9 +51,6 @@ void AddFieldInt(vtkPolyData* output, const char* name, int value);
 /// The field array that is 1 if ranks have computed together.
 constexpr const char* DistributedName = "Distributed";
 
-/// Adds the field arrays UsedDepth and Distributed for a solution by all ranks together.
-void AddDistributed(int depth, vtkPolyData* output);
-
 ///@{ Adds a field array with one number, or with some.
 void AddFieldNumber(vtkPolyData* output, const char* name, double value);
 void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values);

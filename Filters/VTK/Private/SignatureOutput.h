@@ -1,0 +1,25 @@
+// Writes signatures, and distances by modes, as arrays and tables.
+#ifndef GridFEM_SignatureOutput_h
+#define GridFEM_SignatureOutput_h
+
+#include "Solvers/SignatureSolver.h"
+
+class vtkPolyData;
+class vtkTable;
+
+namespace gridfem
+{
+
+/// Adds the point arrays WaveKernelSignature, HeatKernelSignature and Signature, and the field
+/// arrays HeatTimes and WaveEnergies.
+void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPolyData* output);
+
+/// Adds the point arrays DiffusionDistance and BiharmonicDistance.
+void WriteModeDistances(const SignatureSolver::Result& result, int precision, vtkPolyData* output);
+
+/// Adds the columns Mode, Eigenvalue and ShapeDNA.
+void WriteFingerprint(const PointModes& modes, vtkTable* table);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,167 @@
+// The runs of a filter whose surface consists of pieces: the blocks of composite data, or those of
+// MPI ranks.
+#include "vtkSurfaceFEMAlgorithm.h"
+
+#include "Private/CanDistribute.h"
+#include "Private/FilterState.h"
+#include "Private/InputBlocks.h"
+#include "Private/InputValidation.h"
+#include "Private/JoinedBlocks.h"
+#include "Private/PipelineTime.h"
+#include "Private/RankedOutput.h"
+#include "Private/RankedSurface.h"
+#include "Private/Ranks.h"
+#include "Private/SolverOutput.h"
+#include "Private/SurfaceInput.h"
+
+#include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+
+/// Computes one block of a surface of several blocks. The first block computes for all.
+void vtkSurfaceFEMAlgorithm::ComputeBlock(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (!this->Joined->HasStarted())
+  {
+    this->Joined->Start(outputs);
+    try
+    {
+      this->ComputeJoinedBlocks(inputs);
+    }
+    catch (...)
+    {
+      this->Joined->Fail(std::current_exception());
+      throw;
+    }
+  }
+  this->Joined->HandBack(vtkDataSet::GetData(inputs[0]), outputs);
+  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
+}
+
+void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
+{
+  gridfem::JoinedBlocks& joined = *this->Joined;
+  vtkCompositeDataSet* whole = this->Blocks->Whole();
+  const int ports = this->GetNumberOfInputPorts();
+  const int count = gridfem::JoinedBlocks::CountBlocks(whole);
+  if (gridfem::Ranks::AreSeveral())
+  {
+    this->Blocks->RequireAligned();
+    const gridfem::Ranks ranks;
+    const bool isShared = ranks.Number(count > 0) > 1 || count > 1;
+    vtkInformationVector** surfaces = nullptr;
+    ranks.Together(
+      [&]
+      {
+        joined.Read(whole, isShared);
+        surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
+      });
+    this->ComputeOnRanks(surfaces, joined.Results());
+    return;
+  }
+  joined.Read(whole, count > 1);
+  while (!joined.IsEmpty())
+  {
+    vtkInformationVector** surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
+    try
+    {
+      this->ComputeSurface(surfaces, joined.Results());
+      return;
+    }
+    catch (const gridfem::MissingArray& error)
+    {
+      const std::vector<std::string> without = joined.LeaveOut(error.array);
+      if (without.empty())
+      {
+        gridfem::ThrowWithPartialArrays(error, joined.Surface());
+      }
+      for (const std::string& block : without)
+      {
+        vtkWarningMacro("The surface does not include " << block << ", because it has no array '"
+                                                        << error.array
+                                                        << "'. It is output unchanged.");
+      }
+    }
+  }
+}
+
+/// Computes on several MPI ranks. All of them call it, also those without a piece of the surface.
+void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Blocks->RequireAligned();
+  const gridfem::Ranks ranks;
+  if (ranks.Any(this->GetAbortExecute() != 0))
+  {
+    throw gridfem::Aborted();
+  }
+  vtkInformationVector** surfaces = inputs;
+  vtkDataSet* piece = vtkDataSet::GetData(inputs[0]);
+  const bool isShared = ranks.Number(!gridfem::IsEmpty(piece)) > 1;
+  ranks.Together(
+    [&]
+    {
+      if (isShared)
+      {
+        gridfem::RequireNoVolume(piece);
+      }
+      if (piece && piece->GetNumberOfCells() > 0)
+      {
+        surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
+      }
+    });
+  if (this->TryTogether(surfaces, outputs))
+  {
+    this->Ranked->NoteComputed();
+    gridfem::ShareFieldArrays(
+      vtkDataObject::GetData(surfaces[0]), vtkDataObject::GetData(outputs, 0));
+    gridfem::StampTime(!this->OwnTimeSteps().empty(), surfaces[0], outputs);
+    return;
+  }
+  this->UseSurface(false);
+  this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,
+    this->OwnTimeSteps(),
+    [this](vtkInformationVector** gathered, vtkInformationVector* results)
+    {
+      this->ComputeSurface(gathered, results);
+      gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
+      return this->OwnTimeSteps();
+    });
+  // Otherwise the array of an earlier filter would stay.
+  vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
+}
+
+/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
+/// others.
+bool vtkSurfaceFEMAlgorithm::TryTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  try
+  {
+    if (!gridfem::CanDistribute(this, inputs, this->NeedsWholeSurface()))
+    {
+      return false;
+    }
+    this->UseSurface(true);
+    this->State->RunTogether([&] { this->ComputeInside(inputs, outputs); });
+    gridfem::AddFieldInt(vtkPolyData::GetData(outputs), gridfem::DistributedName, 1);
+    this->WriteDepth(outputs);
+    return true;
+  }
+  catch (const gridfem::Aborted&)
+  {
+    throw;
+  }
+  catch (const gridfem::NeedsWholeSurface&)
+  {
+    this->FreeStages();
+    return false;
+  }
+  catch (...)
+  {
+    this->FreeStages();
+    throw;
+  }
+}
