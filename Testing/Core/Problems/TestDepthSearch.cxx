@@ -85,10 +85,14 @@ TEST(DepthSearch, FindsModesBetweenItsBounds)
     const int first = FirstDepthForModes(mesh, 20, accuracy, FunctionKind::Grid);
     EXPECT_GE(first, last);
     last = first;
-    EXPECT_EQ(
-      NextDepthForModes(mesh, { 0.5 * accuracy, accuracy }, first, accuracy, FunctionKind::Grid),
+    EXPECT_EQ(NextDepthForModes(
+                mesh, { 0.5 * accuracy, accuracy }, true, first, accuracy, FunctionKind::Grid),
       first);
+    EXPECT_EQ(NextDepthForModes(
+                mesh, { 0.5 * accuracy, accuracy }, false, first, accuracy, FunctionKind::Grid),
+      first + 1);
     EXPECT_EQ(
-      NextDepthForModes(mesh, { 4.0 * accuracy }, first, accuracy, FunctionKind::Grid), first + 1);
+      NextDepthForModes(mesh, { 4.0 * accuracy }, true, first, accuracy, FunctionKind::Grid),
+      first + 1);
   }
 }
