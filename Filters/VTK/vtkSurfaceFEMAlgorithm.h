@@ -32,7 +32,8 @@
  * solver has all points and cells of the input.
  *
  * Points that no polygon inside the domain uses have NaN in all results, and the color of the input
- * in results that are colors. Where a filter moves points, they stay in place.
+ * in results that are colors. Where a filter moves points, they stay in place, and the
+ * measures of the motion are those of a point at rest.
  *
  * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
  * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
