@@ -15,7 +15,7 @@ for kilobytes in 0 1 64 1024 4096 unlimited; do
   echo "$kilobytes kB: exit code $result, $written files, '$message'"
   case "$kilobytes:$result:$written:$message" in
     unlimited:0:14:) ;;
-    [0-9]*:1:*"Not all of $folder/"*" could be written."*) ;;
+    [0-9]*:1:*"The file $folder/"*" is incomplete. Is the disk full?"*) ;;
     *)
       echo "This is wrong."
       exit 1

@@ -6,8 +6,8 @@
  * source s. The time is divided into NumberOfSteps equal steps, and each is a time step of the
  * output. Steps are of second order in their length and stable for any length. The first step takes
  * three solves and damps details of any size; each later one takes two. One step leaves at most
- * 0.006 of a detail with the wrong sign, and the heat of a point stays positive. Only jumps within a
- * cell make the functions go below and above the given values.
+ * 0.006 of a detail with the wrong sign, and the heat of a point stays positive. Only jumps within
+ * a cell make the functions go below and above the given values.
  *
  * No heat flows over boundaries. The integral over every connected component changes only by the
  * source. Held values, however, let heat enter and leave.
@@ -27,9 +27,9 @@
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Diffused` (C components). It is of bytes if the array holds colors (three or four
- *   bytes), float if the array is float, else double. Without an array, the points move to their spread coordinates.
- *   The output then has `Displacement` and `NormalDisplacement`, and normals follow. The clip,
- *   basis and modes belong to the old shape and are left out.
+ *   bytes), float if the array is float, else double. Without an array, the points move to their
+ * spread coordinates. The output then has `Displacement` and `NormalDisplacement`, and normals
+ * follow. The clip, basis and modes belong to the old shape and are left out.
  * - field data: `Step` (int, 1).
  * - field data: `DiffusionTime` (double, 1; squared world length).
  * - field data, of all solves of the shown step: `Converged`, `Iterations`, `DoublePrecisionSince`,

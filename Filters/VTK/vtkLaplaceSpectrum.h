@@ -37,8 +37,9 @@
  * - `EstimatedError` (double): the estimated relative error of the eigenvalue of the surface. The
  *   estimate comes from the values of the same mode in the spaces of half and of a quarter of the
  *   resolution. It is 1 if the first of them has no such mode. With HatFunctions the estimate also
- *   includes the difference to the eigenvalue of the grid, if the eigenvalue of the hat functions is
- *   larger. Both eigenvalues are upper bounds, so the estimate is the error of the worse of the two.
+ *   includes the difference to the eigenvalue of the grid, if the eigenvalue of the hat functions
+ * is larger. Both eigenvalues are upper bounds, so the estimate is the error of the worse of the
+ * two.
  * - `TrustedEstimate` (int): 1 if the three values approach each other as on a resolved surface. If
  *   it is 0, the error may be far larger.
  *
@@ -126,9 +127,9 @@ public:
    * The wanted relative error of the eigenvalues of the surface. Above 0, it replaces Depth: the
    * filter chooses the depth at which the estimated error of every eigenvalue is at most Accuracy.
    * Estimates that are not trusted have to hold at one more depth. If the depth does not fit into
-   * memory or a basis is given, Accuracy may not be reached. A warning says so, and `Converged` is 0.
-   * With HatFunctions the mesh may be too coarse, and no depth changes its error. 0..0.5, default 0:
-   * Depth is used.
+   * memory or a basis is given, Accuracy may not be reached. A warning says so, and `Converged` is
+   * 0. With HatFunctions the mesh may be too coarse, and no depth changes its error. 0..0.5,
+   * default 0: Depth is used.
    */
   vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);

@@ -27,8 +27,9 @@
  *   at least 1/√area.
  *
  * Triangles that face against the rest of their component count as turned round. A closed component
- * whose triangles do not face alike faces outward. The field array `TurnedTriangles` (int, 1) is the
- * number of turned triangles. The filter warns about one-sided components, such as a Möbius strip.
+ * whose triangles do not face alike faces outward. The field array `TurnedTriangles` (int, 1) is
+ * the number of turned triangles. The filter warns about one-sided components, such as a Möbius
+ * strip.
  *
  * With a SmoothingScale, the field data have `Converged`, `Iterations`, `Residual`,
  * `ConvergenceFactor` and `DoublePrecisionSince` of the smoothing, as in vtkScreenedPoisson.

@@ -48,8 +48,8 @@
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Solution` (C components, named as those of f). It is of bytes if f
- *   holds colors (three or four bytes), float if f, or the coordinates in its place, are float, else
- *   double.
+ *   holds colors (three or four bytes), float if f, or the coordinates in its place, are float,
+ * else double.
  * - without a ValueArray: the points move to the solution and have the point arrays `Displacement`
  *   and `NormalDisplacement`. Normals follow. The clip, basis and modes of the old shape are left
  *   out.

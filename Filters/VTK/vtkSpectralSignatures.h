@@ -40,7 +40,8 @@
  *   components of the surface without a source.
  * - point data, with sources: `DiffusionDistance` (1 component, no unit).
  * - point data, with a FilterType: `Filtered`, with the components of the array. It is of bytes if
- *   the array holds colors, float if it is float, else double. If the coordinates are filtered, the points move to their filtered places. The output then has `Displacement` and
+ *   the array holds colors, float if it is float, else double. If the coordinates are filtered, the
+ * points move to their filtered places. The output then has `Displacement` and
  *   `NormalDisplacement`, and normals follow. The clip, basis and modes belong to the old shape and
  *   are left out.
  * - field data, one tuple per scale: `HeatTimes` (double, world length squared) and `WaveEnergies`

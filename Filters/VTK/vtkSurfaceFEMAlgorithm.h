@@ -32,7 +32,8 @@
  * solver has all points and cells of the input.
  *
  * Points that no polygon inside the domain uses have NaN in all results, and the color of the input
- * in results that are colors. Where a filter moves points, they stay in place.
+ * in results that are colors. Where a filter moves points, they stay in place, and the
+ * measures of the motion are those of a point at rest.
  *
  * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
  * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
@@ -113,8 +114,8 @@ public:
 
   ///@{
   /**
-   * When on, coincident points count as one for connectivity. Meshes from STL files need this. Border
-   * points that coincide but for rounding count as one, too. Polygons are divided, for the
+   * When on, coincident points count as one for connectivity. Meshes from STL files need this.
+   * Border points that coincide but for rounding count as one, too. Polygons are divided, for the
    * computation only, at hanging nodes on their sides. Two points count as one up to 1e-6 of the
    * longest side of the bounding box, and up to a thousandth of the shortest side of a triangle
    * there. The output keeps the input's points either way. Default on.

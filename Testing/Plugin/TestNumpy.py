@@ -296,7 +296,7 @@ class Numpy(unittest.TestCase):
             "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
             "there is no point": lambda: gridfem.distance(points, triangles, len(points)),
             "no sources": lambda: gridfem.distance(points, triangles, []),
-            "no border": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
+            "has the Inside Label 1": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
             "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),
             "2 ids and 3 values": lambda: gridfem.interpolate(points, triangles, [0, 1], [1, 2, 3])}
         for message, call in cases.items():

@@ -136,8 +136,7 @@ TEST_F(GhostCells, AFaceThatIsThereTwiceCountsOnce)
     AddPointArray(doubled, "f", 1, Wave);
     vtkNew<vtkLaplaceSpectrum> ofDoubled;
     vtkNew<vtkLaplaceSpectrum> ofAlone;
-    EXPECT_EQ(
-      this->Run(ofDoubled.Get(), doubled, "Mode"), this->Run(ofAlone.Get(), alone, "Mode"));
+    EXPECT_EQ(this->Run(ofDoubled.Get(), doubled, "Mode"), this->Run(ofAlone.Get(), alone, "Mode"));
   }
 }
 

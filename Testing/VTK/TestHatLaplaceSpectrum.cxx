@@ -151,11 +151,18 @@ TEST_F(HatLaplaceSpectrum, StripsSoupAndFoldsAreTheirTriangles)
   {
     book = Join(book, Transform(page, { 0, 1, 0 }, angle));
   }
+  for (Vec3& point : book.points) // the rotation moves points of the axis by rounding
+  {
+    if (std::hypot(point[0], point[2]) < 1e-9)
+    {
+      point = { 0.0, std::round(6.0 * point[1]) / 6.0, 0.0 };
+    }
+  }
   filter->SetInputData(ToPolyData(book));
   this->ExpectSpectrumOf(book, "book");
 }
 
-TEST_F(HatLaplaceSpectrum, PointsWithoutAFunctionGetZero)
+TEST_F(HatLaplaceSpectrum, PointsWithoutAFunctionHaveNoValue)
 {
   const TriangleMesh clean = mesh;
   mesh.points.push_back({ 9, 9, 9 });
@@ -165,8 +172,8 @@ TEST_F(HatLaplaceSpectrum, PointsWithoutAFunctionGetZero)
   filter->SetInputData(ToPolyData(mesh));
   this->ExpectSpectrumOf(clean, "unused points");
   const auto mode = PointValues(filter->GetOutput(), "Mode");
-  EXPECT_EQ(mode[last - 1], 0.0);
-  EXPECT_EQ(mode[last], 0.0);
+  EXPECT_TRUE(std::isnan(mode[last - 1]));
+  EXPECT_TRUE(std::isnan(mode[last]));
 }
 
 TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)

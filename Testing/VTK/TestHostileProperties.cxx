@@ -54,7 +54,7 @@ const HostileCase Cases[] = {
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetGradientScale(value); }); } },
   { "Accuracy", [](double value)
     { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetAccuracy(value); }); } },
-  { "TimeStep", [](double value)
+  { "Time Step", [](double value)
     { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTimeStep(value); }); } },
   { "Tolerance", [](double value)
     { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTolerance(value); }); } },

@@ -328,7 +328,8 @@ TEST(SurfaceGradientFilter, LeavesVerticesAndUnusedPointsAlone)
   filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
   filter->Update();
   ASSERT_EQ(filter->GetOutput()->GetNumberOfCells(), sphere->GetNumberOfCells());
-  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Laplacian")->GetComponent(lonely, 0), 0);
+  auto* laplacian = filter->GetOutput()->GetPointData()->GetArray("Laplacian");
+  EXPECT_TRUE(std::isnan(laplacian->GetComponent(lonely, 0)));
   EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(0, 0), 0);
   EXPECT_NE(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(1, 0), 0);
 }

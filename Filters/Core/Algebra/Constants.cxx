@@ -15,8 +15,38 @@ namespace
 constexpr Id MostSums = 16;
 constexpr Id RowsPerComponent = 64;
 
-/// Share of the mass that a component without an area may have by rounding.
-constexpr double Nothing = 1e-30;
+/// Share of the mass below which a component may have no area but that of rounding.
+constexpr double Rounding = 1e-14;
+
+/// Squared extent of a component, in cells, that is a speck with such a share of the mass.
+constexpr double LargestSpeck = 1e-9;
+
+/// How far each component extends. With b the values of all functions at a place, M is ∫ b bᵀ, and
+/// its row sums are ∫ b. On a component at one place, M has therefore no other eigenvector. Returns
+/// the rest of M's trace, as a share.
+/// @param rowSum  of the mass
+std::vector<double> ExtentsOf(const SparseMatrix& mass, const std::vector<double>& rowSum,
+  const std::vector<Index>& component, Index count)
+{
+  std::vector<double> trace(count, 0.0);
+  std::vector<double> square(count, 0.0);
+  std::vector<double> product(count, 0.0); // of the row sums with M times them
+  for (Index i = 0; i < mass.rows; ++i)
+  {
+    const Index c = component[i];
+    square[c] += rowSum[i] * rowSum[i];
+    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
+    {
+      product[c] += rowSum[i] * mass.value[k] * rowSum[mass.column[k]];
+      trace[c] += mass.column[k] == i ? mass.value[k] : 0.0;
+    }
+  }
+  for (Index c = 0; c < count; ++c)
+  {
+    trace[c] = 1.0 - product[c] / square[c] / trace[c];
+  }
+  return trace;
+}
 
 } // namespace
 
@@ -40,9 +70,16 @@ Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
   const auto components = static_cast<Index>(mass_.size());
   SumOverProcesses(divided_, mass_);
   const double total = std::accumulate(mass_.begin(), mass_.end(), 0.0);
+  const auto isLarge = [&](Index c) { return mass_[c] > Rounding * total; };
+  std::vector<double> extent; // where one is small
   for (Index c = 0; c < components; ++c)
   {
-    if (mass_[c] > Nothing * total)
+    if (!isLarge(c) && mass_[c] > 0.0 && extent.empty() && !divided_)
+    {
+      extent = ExtentsOf(mass, weight_, component_, components);
+    }
+    // A line's area is rounding, however long it is. A speck has a small area, too.
+    if (isLarge(c) || (!extent.empty() && mass_[c] > 0.0 && extent[c] < LargestSpeck))
     {
       massive_.push_back(c);
     }

@@ -23,7 +23,7 @@ namespace
 
 /// Reach of the distance through space around a curve, in √t. At smaller distances, heat on a grid
 /// has no reliable direction. At much larger distances, surfaces are not flat.
-constexpr double NearReach = 2.0;
+constexpr double NearReach = 2.9;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 

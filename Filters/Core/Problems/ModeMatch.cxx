@@ -25,6 +25,7 @@ Eigen::MatrixXd MatchNumbers(const SpectralProblem<Real>& problem, const ConstBl
   const SparseMatrix& prolongation, const ConstBlock<Real>& coarser, const Eigen::MatrixXd& numbers)
 {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(modes.cols(), numbers.cols());
+  Eigen::MatrixXd weights = sum;
   Eigen::MatrixXd share = sum;
   Vectors<Real> prolonged;
   for (Id first = 0; first < coarser.cols(); first += ModesAtOnce)
@@ -33,7 +34,7 @@ Eigen::MatrixXd MatchNumbers(const SpectralProblem<Real>& problem, const ConstBl
     prolonged.resize(prolongation.rows, count);
     MultiplyBlock<Real>(prolongation, coarser.middleCols(first, count), prolonged, problem.threads);
     SumProlonged<Real>(problem.divided, prolonged);
-    const Eigen::MatrixXd weight = problem.ProjectMass({ modes }, prolonged).cwiseAbs2();
+    const Eigen::MatrixXd square = problem.ProjectMass({ modes }, prolonged).cwiseAbs2();
     for (Id column = 0; column < numbers.cols(); ++column)
     {
       for (Id j = 0; j < count; ++j)
@@ -41,14 +42,15 @@ Eigen::MatrixXd MatchNumbers(const SpectralProblem<Real>& problem, const ConstBl
         const double number = numbers(first + j, column);
         if (!std::isnan(number))
         {
-          sum.col(column) += number * weight.col(j);
-          share.col(column) += weight.col(j);
+          sum.col(column) += number * square.col(j).cwiseAbs2();
+          weights.col(column) += square.col(j).cwiseAbs2();
+          share.col(column) += square.col(j);
         }
       }
     }
   }
   return (share.array() >= LeastShare)
-    .select(sum.array() / share.array(), std::numeric_limits<double>::quiet_NaN());
+    .select(sum.array() / weights.array(), std::numeric_limits<double>::quiet_NaN());
 }
 
 template Eigen::MatrixXd MatchNumbers(const SpectralProblem<float>&, const ConstBlock<float>&,

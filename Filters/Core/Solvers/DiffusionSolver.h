@@ -52,10 +52,10 @@ public:
 
   struct Result
   {
-    std::vector<Step> steps;     // the first is step 1
-    double stepLength = 0.0;     // squared world units
-    EquationOptions equation;    // with the tolerance that was used
-    std::string warning;         // about the input; empty: none
+    std::vector<Step> steps;  // the first is step 1
+    double stepLength = 0.0;  // squared world units
+    EquationOptions equation; // with the tolerance that was used
+    std::string warning;      // about the input; empty: none
   };
 
   /// The default options of the surface.

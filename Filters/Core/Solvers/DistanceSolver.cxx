@@ -108,11 +108,13 @@ std::vector<Id> FindSources(const Surface& surface, const DistanceSolver::Input&
   return sources;
 }
 
-/// Throws InvalidInput if the label is nowhere or everywhere, because it has no border then.
+/// Throws InvalidInput if the label is nowhere or everywhere, because it has no border then. Labels
+/// that are no integers are refused later.
 void RequireLabel(const MultiVector& labels, const std::string& name, int inside)
 {
+  const bool areIntegers = (labels.array() == labels.array().round()).all();
   const auto count = (labels.array() == static_cast<double>(inside)).count();
-  if (labels.size() > 0 && (count == 0 || count == labels.size()))
+  if (areIntegers && labels.size() > 0 && (count == 0 || count == labels.size()))
   {
     std::ostringstream message;
     message << "Label Array '" << name

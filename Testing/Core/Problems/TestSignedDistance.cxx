@@ -227,8 +227,8 @@ TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth
   {
     const std::vector<double> coarse = Distances(mesh, curve, isOnHats, 5);
     const std::vector<double> fine = Distances(mesh, curve, isOnHats, 7);
-    EXPECT_LT(LargestError(mesh, coarse, exact), 0.03); // sqrt(t) is 0.066 and 0.016
-    EXPECT_LT(LargestError(mesh, fine, exact), 0.5 * LargestError(mesh, coarse, exact));
+    EXPECT_LT(LargestError(mesh, coarse, exact), 0.02); // sqrt(t) is 0.045 and 0.011
+    EXPECT_LT(LargestError(mesh, fine, exact), 0.7 * LargestError(mesh, coarse, exact));
     // Next to the line, even halfway between points of the mesh: the distance has no dots.
     EXPECT_LT(LargestError(mesh, fine, exact, 0.015), 0.002) << isOnHats; // a fifth of an edge
   }
@@ -283,7 +283,8 @@ TEST(SignedDistance, FromTheEquatorIsTheLatitude)
   {
     const double coarse = errorAt(isOnHats, 4, 20);
     const double fine = errorAt(isOnHats, 6, 40);
-    EXPECT_LT(fine, 0.01 * 0.5 * Pi * Radius * (isOnHats ? 1.5 : 1.0)) << isOnHats;
+    // A sphere has no border and no crease, so less smoothing is no gain there.
+    EXPECT_LT(fine, 0.012 * 0.5 * Pi * Radius * (isOnHats ? 1.25 : 1.0)) << isOnHats;
     EXPECT_LT(fine, 0.4 * coarse) << isOnHats;
   }
 }
