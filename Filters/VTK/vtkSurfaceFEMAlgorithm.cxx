@@ -170,6 +170,8 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   if (!this->KeepsStages() || this->HasNoPoints(inputs))
   {
     this->FreeStages();
+    this->Surface->Free(); // the run itself needs both to its end
+    this->Inside->Free();
     gridfem::ReturnFreedMemory();
   }
   return result;
@@ -326,8 +328,6 @@ bool vtkSurfaceFEMAlgorithm::KeepsStages()
 void vtkSurfaceFEMAlgorithm::FreeStages()
 {
   this->State->Free();
-  this->Surface->Free();
-  this->Inside->Free();
   this->Ranked->Free();
 }
 

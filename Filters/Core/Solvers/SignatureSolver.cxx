@@ -51,6 +51,18 @@ double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
   return 1.0;
 }
 
+/// A flag for each point: 1 unless all modes are 0, as they are where no triangle of any process
+/// is. Mode 0 is a constant.
+std::vector<char> PointsWithModes(const PointModes& modes)
+{
+  std::vector<char> isReached(static_cast<std::size_t>(modes.values.rows()));
+  for (std::size_t point = 0; point < isReached.size(); ++point)
+  {
+    isReached[point] = !modes.values.row(static_cast<Id>(point)).isZero(0.0);
+  }
+  return isReached;
+}
+
 /// The progress of work that each process does on its own points. On a shared surface it is silent,
 /// because all processes report together.
 Progress OfOwnPoints(const Surface& surface, const Progress& progress)
@@ -130,7 +142,7 @@ void SignatureSolver::UpdateModes(
       {
         result_ = {};
         result_.modes = input.modes.modes;
-        isReached_ = UsedPoints(*input.modes.mesh);
+        isReached_ = PointsWithModes(*result_.modes);
       });
     result_.warnings.clear();
     return;
