@@ -37,14 +37,14 @@
  *
  * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
  * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
- * and the patch smoother, excludes BlocksAsOne, and works in most solvers; the page of each filter
- * gives details. Otherwise, rank 0 gathers the surface, has to hold all of it, and computes with
- * its threads. The other ranks sleep. Ghost cells count once. Points on borders are joined by
- * global point ids, or else by their coordinates with WeldCoincidentPoints. Rank 0 also gathers a
- * surface with hanging nodes. Port 0 is each rank's own input plus arrays, borders and ghosts
- * included. Outputs with cells of their own, and tables, are on rank 0. Ids of sources, and
- * ids in messages, count through the gathered surface. The same ranks have to run the
- * filter together. If one fails, all fail with one message.
+ * and the patch smoother, excludes BlocksAsOne and a DomainArray, and works in most solvers; the
+ * page of each filter gives details. Otherwise, rank 0 gathers the surface, has to hold all of it,
+ * and computes with its threads. The other ranks sleep. Ghost cells count once. Points on borders
+ * are joined by global point ids, or else by their coordinates with WeldCoincidentPoints. Rank 0
+ * also gathers a surface with hanging nodes. Port 0 is each rank's own input plus arrays, borders
+ * and ghosts included. Outputs with cells of their own, and tables, are on rank 0. Ids of sources,
+ * and ids in messages, count through the gathered surface. The same ranks have to run the filter
+ * together. If one fails, all fail with one message.
  *
  * A solver filter looks for its function space in this order:
  * - on input port 0, if that is the output of vtkConnectivityAwareBasis;

@@ -1,6 +1,7 @@
 #include "CanDistribute.h"
 
 #include "BasisReader.h"
+#include "Domain.h"
 #include "InputSurface.h"
 #include "Ranks.h"
 #include "vtkSurfaceFEMAlgorithm.h"
@@ -55,6 +56,8 @@ bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
     isSolver && !CarriesBasis(piece) ? vtkPolyData::GetData(inputs[1]) : piece;
   const bool isGiven = isSolver && CarriesBasis(basis);
   return filter->GetBlocksAsOne() ||
+         // A point where pieces meet may be inside the domain on one rank alone.
+         IsArrayChosen(filter, DomainIndex) ||
          // Without welding, pieces would be apart along their borders.
          !filter->GetWeldCoincidentPoints() || (isGiven && !WeldsCoincidentPoints(basis)) ||
          (isGiven && basis == piece &&
