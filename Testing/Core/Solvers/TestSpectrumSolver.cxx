@@ -164,7 +164,11 @@ TEST_F(Spectra, AnAccuracyIsReachedOnlyWhereTheSurfaceIsResolved)
 class GivenSurface : public LocalSurface
 {
 public:
-  using LocalSurface::LocalSurface;
+  GivenSurface(
+    Stages& stages, std::shared_ptr<const TriangleMesh> mesh, const SurfaceOptions& options)
+    : Surface(stages), LocalSurface(stages, std::move(mesh), options)
+  {
+  }
   bool AreFunctionsGiven() const override { return true; }
 };
 
