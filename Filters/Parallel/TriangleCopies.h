@@ -36,9 +36,6 @@ public:
   MultiVector RowsOfOriginals(
     const Redistribution& distribution, const MultiVector& onTriangles) const;
 
-  /// Whether only copies use each point of this rank.
-  const std::vector<char>& IsCopied() const { return isCopied_; }
-
 private:
   using Corners = std::array<double, 9>;
 

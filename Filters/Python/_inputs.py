@@ -103,6 +103,16 @@ def require_range(name, value, least, most):
         raise Error(f"{name} = {value!r}: must be {bounds}")
 
 
+def colors_like(colors, given):
+    """Returns an array with the type and in the range of the given array."""
+    if numpy.issubdtype(given.dtype, numpy.integer):
+        limits = numpy.iinfo(given.dtype)
+        colors = numpy.round(numpy.clip(colors, limits.min, limits.max))
+    elif given.size and 0 <= given.min() and given.max() <= 1:
+        colors = numpy.clip(colors, 0, 1)
+    return colors.astype(given.dtype)
+
+
 def result_like(result, given, on_points):
     """Returns a solution in the type of the values: bytes for colors, float32, or float64.
 
@@ -112,7 +122,7 @@ def result_like(result, given, on_points):
         unsolved = numpy.isnan(result)
         if unsolved.any():
             result = numpy.where(unsolved, given if on_points else 0, result)
-        return numpy.clip(numpy.round(result), 0, 255).astype(numpy.uint8)
+        return colors_like(result, given)
     return result.astype(numpy.float32) if given.dtype == numpy.float32 else result
 
 

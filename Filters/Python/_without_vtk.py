@@ -5,7 +5,7 @@ import warnings
 
 import numpy
 
-from ._inputs import Error, checked, placed, require_range, result_like
+from ._inputs import Error, checked, colors_like, placed, require_range, result_like
 
 
 def _levels():
@@ -36,16 +36,6 @@ _core = _load()
 
 def _matrix(values):
     return numpy.asarray(values, dtype=float).reshape(len(values), -1)
-
-
-def _colors(stitched, given):
-    """Returns an array with the type and in the range of the given array."""
-    if numpy.issubdtype(given.dtype, numpy.integer):
-        limits = numpy.iinfo(given.dtype)
-        stitched = numpy.round(numpy.clip(stitched, limits.min, limits.max))
-    elif given.size and 0 <= given.min() and given.max() <= 1:
-        stitched = numpy.clip(stitched, 0, 1)
-    return stitched.astype(given.dtype)
 
 
 def _number(name, value):
@@ -91,5 +81,5 @@ def solve(name, points, cells, arrays, properties, sources=()):
         if "values" in given:
             results[array] = result_like(results[array], *given["values"])
     if "StitchedColors" in results:
-        results["StitchedColors"] = _colors(results["StitchedColors"], given["colors"][0])
+        results["StitchedColors"] = colors_like(results["StitchedColors"], given["colors"][0])
     return results

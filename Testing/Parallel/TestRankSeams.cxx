@@ -4,6 +4,7 @@
 #include "Grid/JoinSeams.h"
 #include "Meshes.h"
 #include "Pieces.h"
+#include "SameSeams.h"
 
 #include <gtest/gtest.h>
 
@@ -24,16 +25,8 @@ TriangleMesh SurfaceWithSeams()
     const float angle = 6.2831853F * static_cast<float>(point[0]);
     point = Vec3(std::cos(angle), std::sin(angle), point[1]);
   }
-  TriangleMesh coarse = FlatRectangle(4, 4);
-  TriangleMesh fine = FlatRectangle(6, 6);
-  for (Vec3& point : coarse.points)
-  {
-    point[0] += 2.0;
-  }
-  for (Vec3& point : fine.points)
-  {
-    point[0] += 3.0;
-  }
+  const TriangleMesh coarse = Transform(FlatRectangle(4, 4), { 0, 0, 1 }, 0.0, 1.0, { 2, 0, 0 });
+  const TriangleMesh fine = Transform(FlatRectangle(6, 6), { 0, 0, 1 }, 0.0, 1.0, { 3, 0, 0 });
   return Join(tube, Join(coarse, fine));
 }
 
@@ -58,18 +51,7 @@ TEST(RankSeams, AreThoseOfOneProcess)
   {
     TriangleMesh own = PieceOf(mesh, dealing, false).mesh;
     const Seams found = FindSeams(ranks, own);
-    ASSERT_EQ(found.moves.size(), expected.moves.size());
-    for (std::size_t k = 0; k < expected.moves.size(); ++k)
-    {
-      EXPECT_EQ(found.moves[k].from, expected.moves[k].from);
-      EXPECT_EQ(found.moves[k].to, expected.moves[k].to);
-    }
-    ASSERT_EQ(found.divisions.size(), expected.divisions.size());
-    for (std::size_t k = 0; k < expected.divisions.size(); ++k)
-    {
-      EXPECT_EQ(found.divisions[k].ends, expected.divisions[k].ends);
-      EXPECT_EQ(found.divisions[k].nodes, expected.divisions[k].nodes);
-    }
+    ExpectSameSeams(found, expected);
     for (const MovedPoint& moved : MovePoints(found.moves, own))
     {
       EXPECT_EQ(own.points[moved.point], own.points[moved.twin]);

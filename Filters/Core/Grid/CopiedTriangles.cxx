@@ -1,65 +1,66 @@
 #include "Grid/CopiedTriangles.h"
 
+#include "Base/Errors.h"
+#include "Base/Grouping.h"
 #include "Grid/CornerClasses.h"
 
 namespace gridfem
 {
 
-std::vector<char> CopiedTriangles(const TriangleMesh& mesh, const Array<Index>& pointClass)
+std::vector<char> CopiedTriangles(
+  const TriangleMesh& mesh, const Array<Index>& pointClass, int threads)
 {
   const CornerClasses classes(mesh, pointClass);
   const auto sorted = [&](Id triangle)
   {
-    std::array<Id, 3> corners = classes(triangle);
+    std::array<Index, 3> corners = classes(triangle);
     std::sort(corners.begin(), corners.end());
     return corners;
   };
-  const auto count = static_cast<Id>(mesh.triangles.size());
-  const Buckets<Id> ofLowest(mesh.points.size(),
-    [&](auto&& add)
+  RequireIndices(static_cast<double>(mesh.triangles.size()), "triangles");
+  Array<Index> lowest(mesh.triangles.size());
+  ParallelRanges(static_cast<Id>(lowest.size()), threads,
+    [&](Id begin, Id end)
     {
-      for (Id t = 0; t < count; ++t)
+      for (Id t = begin; t < end; ++t)
       {
-        add(sorted(t)[0], t);
+        lowest[t] = sorted(t)[0];
       }
     });
-  std::vector<char> isCopy;
-  for (std::size_t point = 0; point + 1 < ofLowest.begin.size(); ++point)
+  const Groups ofLowest = GroupItems(lowest, static_cast<Id>(mesh.points.size()), threads);
+  const auto isCopy = [&](Index first, Index own)
   {
-    const auto first = ofLowest.things.begin() + ofLowest.begin[point];
-    const auto last = ofLowest.things.begin() + ofLowest.begin[point + 1];
-    for (auto own = first; own != last; ++own)
+    const std::array<Index, 3> corners = sorted(ofLowest.item[own]);
+    return !IsDegenerate(corners) &&
+           std::any_of(ofLowest.item.begin() + first, ofLowest.item.begin() + own,
+             [&](Index other) { return sorted(other) == corners; });
+  };
+  std::vector<char> copies(mesh.triangles.size(), 0);
+  const Id found = ParallelSum(static_cast<Id>(mesh.points.size()), threads, Id{ 0 },
+    [&](Id begin, Id end)
     {
-      const std::array<Id, 3> corners = sorted(*own);
-      if (!IsDegenerate(corners) &&
-          std::any_of(first, own, [&](Id other) { return sorted(other) == corners; }))
+      Id count = 0;
+      for (Id point = begin; point < end; ++point)
       {
-        isCopy.resize(mesh.triangles.size(), 0);
-        isCopy[*own] = 1;
+        for (Index k = ofLowest.begin[point]; k < ofLowest.begin[point + 1]; ++k)
+        {
+          const bool isOne = isCopy(ofLowest.begin[point], k);
+          copies[ofLowest.item[k]] = isOne ? 1 : 0;
+          count += isOne ? 1 : 0;
+        }
       }
-    }
-  }
-  return isCopy;
+      return count;
+    });
+  return found > 0 ? copies : std::vector<char>();
 }
 
-void DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell)
+void DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads)
 {
-  const std::vector<char> isCopy = CopiedTriangles(mesh);
-  if (isCopy.empty())
+  const std::vector<char> isCopy = CopiedTriangles(mesh, {}, threads);
+  if (!isCopy.empty())
   {
-    return;
+    KeepTriangles(mesh, sourceCell, [&](std::size_t triangle) { return !isCopy[triangle]; });
   }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < isCopy.size(); ++t)
-  {
-    if (!isCopy[t])
-    {
-      mesh.triangles[kept] = mesh.triangles[t];
-      sourceCell[kept++] = sourceCell[t];
-    }
-  }
-  mesh.triangles.resize(kept);
-  sourceCell.resize(kept);
 }
 
 } // namespace gridfem

@@ -1,12 +1,10 @@
-// Groups what belongs to the corners of triangles, with coincident points as one.
+// The corners of triangles, with coincident points as one.
 #ifndef GridFEM_CornerClasses_h
 #define GridFEM_CornerClasses_h
 
 #include "Grid/TriangleMesh.h"
 
-#include <algorithm>
 #include <array>
-#include <vector>
 
 namespace gridfem
 {
@@ -21,12 +19,13 @@ public:
   {
   }
 
-  std::array<Id, 3> operator()(Id triangle) const
+  std::array<Index, 3> operator()(Id triangle) const
   {
-    std::array<Id, 3> corners = mesh_.triangles[triangle];
-    for (Id& corner : corners)
+    std::array<Index, 3> corners;
+    for (int k = 0; k < 3; ++k)
     {
-      corner = ofPoint_.empty() ? corner : ofPoint_[corner];
+      const Id own = mesh_.triangles[triangle][k];
+      corners[k] = ofPoint_.empty() ? static_cast<Index>(own) : ofPoint_[own];
     }
     return corners;
   }
@@ -36,46 +35,8 @@ private:
   const Array<Index>& ofPoint_;
 };
 
-/// Lists of things by a number each, all in one array. Things keep their order.
-template<class Thing>
-struct Buckets
-{
-  std::vector<Id> begin;
-  std::vector<Thing> things;
-
-  /// Calls visit(add) twice, the first time to count. `add` takes a bucket and a thing.
-  template<class Visit>
-  Buckets(std::size_t count, Visit&& visit) : begin(count + 1, 0)
-  {
-    visit([&](Id bucket, const Thing&) { ++begin[bucket + 1]; });
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      begin[k + 1] += begin[k];
-    }
-    things.resize(begin.back());
-    std::vector<Id> next(begin.begin(), begin.end() - 1);
-    visit([&](Id bucket, const Thing& thing) { things[next[bucket]++] = thing; });
-  }
-
-  /// Whether a bucket has two equal things.
-  bool HasEqual() const
-  {
-    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-    {
-      for (Id i = begin[k]; i < begin[k + 1]; ++i)
-      {
-        if (std::find(things.begin() + begin[k], things.begin() + i, things[i]) !=
-            things.begin() + i)
-        {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-};
-
-inline bool IsDegenerate(const std::array<Id, 3>& corners)
+/// Whether two corners are the same.
+inline bool IsDegenerate(const std::array<Index, 3>& corners)
 {
   return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
 }

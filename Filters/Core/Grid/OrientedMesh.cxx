@@ -1,5 +1,7 @@
 #include "Grid/OrientedMesh.h"
 
+#include "Base/Errors.h"
+#include "Base/Grouping.h"
 #include "Grid/CopiedTriangles.h"
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceEdges.h"
@@ -13,27 +15,52 @@ namespace
 {
 
 /// Whether no two triangles run along an edge in the same direction.
-bool FaceAlike(const TriangleMesh& mesh, const CornerClasses& classes)
+bool FaceAlike(const TriangleMesh& mesh, const CornerClasses& classes, int threads)
 {
-  const Buckets<Id> ends(mesh.points.size(),
-    [&](auto&& add)
+  const auto triangles = static_cast<Id>(mesh.triangles.size());
+  RequireIndices(3.0 * static_cast<double>(triangles), "sides of triangles");
+  Array<Index> from(3 * triangles); // of side k of triangle t: 3 t + k
+  ParallelRanges(triangles, threads,
+    [&](Id begin, Id end)
     {
-      for (Id t = 0; t < static_cast<Id>(mesh.triangles.size()); ++t)
+      for (Id t = begin; t < end; ++t)
       {
-        const std::array<Id, 3> corners = classes(t);
-        for (int k = 0; k < 3 && !IsDegenerate(corners); ++k)
-        {
-          add(corners[k], corners[(k + 1) % 3]);
-        }
+        const std::array<Index, 3> corners = classes(t);
+        std::copy(corners.begin(), corners.end(), from.begin() + 3 * t);
       }
     });
-  return !ends.HasEqual();
+  const Groups sides = GroupItems(from, static_cast<Id>(mesh.points.size()), threads);
+  const auto endOf = [&](Index side) { return from[side - side % 3 + (side + 1) % 3]; };
+  const auto isDegenerate = [&](Index side)
+  {
+    const Index* const corners = &from[side - side % 3];
+    return IsDegenerate({ corners[0], corners[1], corners[2] });
+  };
+  // A side counts as one too many if an earlier one runs to the same point.
+  return ParallelSum(static_cast<Id>(mesh.points.size()), threads, Id{ 0 },
+           [&](Id begin, Id end)
+           {
+             Id tooMany = 0;
+             for (Id point = begin; point < end; ++point)
+             {
+               const auto first = sides.item.begin() + sides.begin[point];
+               const auto last = sides.item.begin() + sides.begin[point + 1];
+               for (auto own = first; own != last; ++own)
+               {
+                 tooMany += !isDegenerate(*own) &&
+                            std::any_of(first, own,
+                              [&](Index other)
+                              { return !isDegenerate(other) && endOf(other) == endOf(*own); });
+               }
+             }
+             return tooMany;
+           }) == 0;
 }
 
 /// Returns the mesh with the first of all triangles that have the same corners.
-TriangleMesh WithoutCopies(const TriangleMesh& mesh, const Array<Index>& pointClass)
+TriangleMesh WithoutCopies(const TriangleMesh& mesh, const Array<Index>& pointClass, int threads)
 {
-  const std::vector<char> isCopy = CopiedTriangles(mesh, pointClass);
+  const std::vector<char> isCopy = CopiedTriangles(mesh, pointClass, threads);
   TriangleMesh kept;
   kept.points = mesh.points;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -53,11 +80,11 @@ OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int thr
   OrientedMesh oriented;
   const Array<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, {}, threads) : Array<Index>();
-  if (FaceAlike(mesh, { mesh, pointClass }))
+  if (FaceAlike(mesh, { mesh, pointClass }, threads))
   {
     return oriented;
   }
-  TriangleMesh turned = WithoutCopies(mesh, pointClass);
+  TriangleMesh turned = WithoutCopies(mesh, pointClass, threads);
   oriented.copies = static_cast<Id>(mesh.triangles.size() - turned.triangles.size());
   const SurfaceEdges edges = FindSurfaceEdges(turned, weldCoincidentPoints, threads);
   oriented.oneSided = edges.numberOfOneSided;

@@ -1,9 +1,10 @@
 #include "Grid/Seams.h"
 
+#include "Base/Grouping.h"
 #include "Base/Parallel.h"
 #include "Base/UnionFind.h"
 #include "Grid/KeepOdd.h"
-#include "Grid/PointTree.h"
+#include "Grid/SegmentTree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@ namespace gridfem
 
 namespace
 {
-
-/// Returns the distance of a point from a segment.
-double DistanceOf(const Vec3& point, const Vec3& from, const Vec3& to)
-{
-  const Vec3 along = to - from;
-  const double length2 = along.squaredNorm();
-  const double part = length2 > 0.0 ? (point - from).dot(along) / length2 : 0.0;
-  return (point - from - std::clamp(part, 0.0, 1.0) * along).norm();
-}
 
 class SeamFinder
 {
@@ -36,7 +28,7 @@ private:
 
   void JoinEnds(Seams& seams);
   void ListEdgesOfEnds();
-  std::vector<Index> NodesOf(const Edge& edge, const PointTree& tree) const;
+  std::vector<Index> NodesOf(const Edge& edge, const SegmentTree& tree) const;
   bool IsNode(const Edge& edge, Index point, double within) const;
   void DivideEdges(Seams& seams) const;
 
@@ -46,8 +38,7 @@ private:
   std::vector<Vec3> points_; // of the places
   std::vector<double> tolerance_;
   std::vector<Edge> edges_; // ascending, each once
-  std::vector<Index> edgeBegin_;
-  std::vector<Index> otherEnd_; // of the edges of point p: from edgeBegin_[p] on
+  Groups edgesOfEnd_; // by the point: 2 e for the first end of edge e, and 2 e + 1 for its second
 };
 
 SeamFinder::SeamFinder(const std::vector<OpenEdge>& open, const std::vector<double>& shortest,
@@ -73,14 +64,14 @@ SeamFinder::SeamFinder(const std::vector<OpenEdge>& open, const std::vector<doub
 /// Joins ends that coincide but for rounding, at the lowest of their places.
 void SeamFinder::JoinEnds(Seams& seams)
 {
-  const PointTree tree(points_);
+  const SegmentTree tree(points_);
   UnionFind sets(static_cast<Id>(points_.size()));
   ParallelRanges(static_cast<Id>(points_.size()), threads_,
     [&](Id begin, Id end)
     {
       for (auto a = static_cast<Index>(begin); a < end; ++a)
       {
-        tree.ForEachNear(points_[a], points_[a], tolerance_[a],
+        tree.ForEachNear({ points_[a], points_[a] }, tolerance_[a],
           [&](Index b)
           {
             const double within = std::min(tolerance_[a], tolerance_[b]);
@@ -114,23 +105,14 @@ void SeamFinder::JoinEnds(Seams& seams)
 
 void SeamFinder::ListEdgesOfEnds()
 {
-  edgeBegin_.assign(points_.size() + 1, 0);
-  otherEnd_.resize(2 * edges_.size());
+  Array<Index> end; // two per edge
+  end.reserve(2 * edges_.size());
   for (const Edge& edge : edges_)
   {
-    ++edgeBegin_[edge[0] + 1];
-    ++edgeBegin_[edge[1] + 1];
+    end.push_back(edge[0]);
+    end.push_back(edge[1]);
   }
-  for (std::size_t point = 0; point < points_.size(); ++point)
-  {
-    edgeBegin_[point + 1] += edgeBegin_[point];
-  }
-  std::vector<Index> next(edgeBegin_.begin(), edgeBegin_.end() - 1);
-  for (const Edge& edge : edges_)
-  {
-    otherEnd_[next[edge[0]]++] = edge[1];
-    otherEnd_[next[edge[1]]++] = edge[0];
-  }
+  edgesOfEnd_ = GroupItems(end, static_cast<Id>(points_.size()), threads_);
 }
 
 /// Whether an edge from a point within `edge` runs along it.
@@ -140,14 +122,15 @@ bool SeamFinder::IsNode(const Edge& edge, Index point, double within) const
   const Vec3& to = points_[edge[1]];
   const Vec3& node = points_[point];
   const Vec3 along = (to - from).normalized();
-  for (Index k = edgeBegin_[point]; k < edgeBegin_[point + 1]; ++k)
+  for (Index k = edgesOfEnd_.begin[point]; k < edgesOfEnd_.begin[point + 1]; ++k)
   {
-    const Vec3& other = points_[otherEnd_[k]];
+    const Index end = edgesOfEnd_.item[k];
+    const Vec3& other = points_[edges_[end / 2][1 - end % 2]];
     const double step = (other - node).dot(along);
-    const Vec3& end = step > 0.0 ? to : from;
-    const bool isLonger = std::abs(step) > std::abs((end - node).dot(along));
-    if (std::abs(step) > within &&
-        (isLonger ? DistanceOf(end, node, other) : DistanceOf(other, from, to)) <= within)
+    const Vec3& last = step > 0.0 ? to : from;
+    const bool isLonger = std::abs(step) > std::abs((last - node).dot(along));
+    if (std::abs(step) > within && (isLonger ? DistanceFromSegment({ node, other }, last)
+                                             : DistanceFromSegment({ from, to }, other)) <= within)
     {
       return true;
     }
@@ -156,20 +139,21 @@ bool SeamFinder::IsNode(const Edge& edge, Index point, double within) const
 }
 
 /// Returns the points that divide an edge, in order from its first end.
-std::vector<Index> SeamFinder::NodesOf(const Edge& edge, const PointTree& tree) const
+std::vector<Index> SeamFinder::NodesOf(const Edge& edge, const SegmentTree& tree) const
 {
   const Vec3& from = points_[edge[0]];
   const Vec3& to = points_[edge[1]];
   const double length = (to - from).norm();
   const double ofEdge = std::min({ tolerance_[edge[0]], tolerance_[edge[1]], SeamShare * length });
   std::vector<Index> nodes;
-  tree.ForEachNear(from, to, ofEdge,
+  tree.ForEachNear({ from, to }, ofEdge,
     [&](Index point)
     {
       const double within = std::min(ofEdge, tolerance_[point]);
       const double part = (points_[point] - from).dot(to - from) / length;
       if (point != edge[0] && point != edge[1] && part > within && part < length - within &&
-          DistanceOf(points_[point], from, to) <= within && this->IsNode(edge, point, within))
+          DistanceFromSegment({ from, to }, points_[point]) <= within &&
+          this->IsNode(edge, point, within))
       {
         nodes.push_back(point);
       }
@@ -186,7 +170,7 @@ std::vector<Index> SeamFinder::NodesOf(const Edge& edge, const PointTree& tree) 
 
 void SeamFinder::DivideEdges(Seams& seams) const
 {
-  const PointTree tree(points_);
+  const SegmentTree tree(points_);
   std::vector<std::vector<Index>> nodes(edges_.size());
   ParallelRanges(static_cast<Id>(edges_.size()), threads_,
     [&](Id begin, Id end)

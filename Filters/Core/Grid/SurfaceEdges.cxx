@@ -1,6 +1,7 @@
 #include "Grid/SurfaceEdges.h"
 
 #include "Base/Errors.h"
+#include "Grid/CornerClasses.h"
 #include "Grid/TriangleArea.h"
 #include "Grid/TriangleSides.h"
 
@@ -183,17 +184,13 @@ std::vector<TriangleSegment> SegmentsOf(
 
 std::vector<TriangleSide> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
 {
+  const CornerClasses classes(mesh, pointClass);
   std::vector<TriangleSide> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
-    std::array<Index, 3> point;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Id own = mesh.triangles[t][k];
-      point[k] = pointClass.empty() ? static_cast<Index>(own) : pointClass[own];
-    }
-    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
+    const std::array<Index, 3> point = classes(static_cast<Id>(t));
+    if (IsDegenerate(point))
     {
       continue;
     }

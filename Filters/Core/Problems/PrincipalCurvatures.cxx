@@ -450,7 +450,6 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& given, bool weldCoin
   OrientedMesh oriented = Orient(given, weldCoincidentPoints, job.threads);
   const TriangleMesh& mesh = oriented.mesh ? *oriented.mesh : given;
   report.turned = oriented.turned;
-  report.copies = oriented.copies;
   report.oneSided = oriented.oneSided;
   const HatFunctions around = TrianglesAroundPoints(mesh, weldCoincidentPoints, job.threads);
   job.Check(0.1);

@@ -60,7 +60,6 @@ struct CurvatureReport
 {
   SolveReport smoothing;
   Id turned = 0;      // triangles that faced against their component and count as turned round
-  Id copies = 0;      // triangles left out: others have the same corners
   Index oneSided = 0; // components that have no outside, such as a Möbius strip
 };
 

@@ -4,29 +4,11 @@
 #include "Base/RadixSort.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace gridfem
 {
 namespace
 {
-
-constexpr Index MostPerBox = 8;
-
-double SquaredDistanceOfSegment(const Segment& segment, const Vec3& place)
-{
-  const Vec3 along = segment[1] - segment[0];
-  const double square = along.squaredNorm();
-  const double t =
-    square > 0.0 ? std::clamp((place - segment[0]).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (place - segment[0] - t * along).squaredNorm();
-}
-
-double SquaredDistanceOfBox(const Vec3& low, const Vec3& high, const Vec3& place)
-{
-  return (low - place).cwiseMax(place - high).cwiseMax(0.0).squaredNorm();
-}
 
 bool AreAllSources(const std::array<Id, 3>& corner, const std::vector<char>& isSource)
 {
@@ -101,81 +83,6 @@ void AppendEdges(const TriangleMesh& mesh, const std::vector<char>& isSource, in
 }
 
 } // namespace
-
-double DistanceFromSegment(const Segment& segment, const Vec3& place)
-{
-  return std::sqrt(SquaredDistanceOfSegment(segment, place));
-}
-
-SegmentTree::SegmentTree(std::vector<Segment> segments) : segments_(std::move(segments))
-{
-  if (!segments_.empty())
-  {
-    this->Build(0, static_cast<Index>(segments_.size()));
-  }
-}
-
-/// Makes the box of these segments and halves them at the middle of its longest side.
-/// @return  the number of the box
-Index SegmentTree::Build(Index begin, Index end)
-{
-  const auto number = static_cast<Index>(boxes_.size());
-  Box box{ segments_[begin][0], segments_[begin][0], begin, end, 0 };
-  for (Index k = begin; k < end; ++k)
-  {
-    box.low = box.low.cwiseMin(segments_[k][0]).cwiseMin(segments_[k][1]);
-    box.high = box.high.cwiseMax(segments_[k][0]).cwiseMax(segments_[k][1]);
-  }
-  boxes_.push_back(box);
-  if (end - begin > MostPerBox)
-  {
-    int axis = 0;
-    (box.high - box.low).maxCoeff(&axis);
-    const Index middle = begin + (end - begin) / 2;
-    std::nth_element(segments_.begin() + begin, segments_.begin() + middle, segments_.begin() + end,
-      [axis](const Segment& a, const Segment& b)
-      { return a[0][axis] + a[1][axis] < b[0][axis] + b[1][axis]; });
-    this->Build(begin, middle);
-    const Index second = this->Build(middle, end);
-    boxes_[number].secondChild = second;
-  }
-  return number;
-}
-
-double SegmentTree::DistanceFrom(const Vec3& place) const
-{
-  double least = std::numeric_limits<double>::infinity();
-  std::array<Index, 64> waiting; // one box per halving of fewer than 2^31 segments
-  std::size_t count = 0;
-  if (!boxes_.empty())
-  {
-    waiting[count++] = 0;
-  }
-  while (count > 0)
-  {
-    const Index number = waiting[--count];
-    const Box& box = boxes_[number];
-    if (SquaredDistanceOfBox(box.low, box.high, place) >= least)
-    {
-      continue;
-    }
-    if (box.secondChild == 0)
-    {
-      for (Index k = box.begin; k < box.end; ++k)
-      {
-        least = std::min(least, SquaredDistanceOfSegment(segments_[k], place));
-      }
-      continue;
-    }
-    const Box& first = boxes_[number + 1];
-    const Box& second = boxes_[box.secondChild];
-    const bool isFirstNearer = SquaredDistanceOfBox(first.low, first.high, place) <=
-                               SquaredDistanceOfBox(second.low, second.high, place);
-    waiting[count++] = isFirstNearer ? box.secondChild : number + 1;
-    waiting[count++] = isFirstNearer ? number + 1 : box.secondChild; // the next one
-  }
-  return std::sqrt(least);
-}
 
 std::vector<double> DistancesThroughSpace(
   const TriangleMesh& mesh, std::vector<Segment> segments, int threads)

@@ -101,8 +101,7 @@ void GradientSolver::Derive(const Surface& surface, const Input& input, const St
       }
       for (Derived& field : derived)
       {
-        surface.FillCopies(field.atPoints);
-        surface.ClearUnreached(field.atPoints);
+        surface.CompleteAtPoints(field.atPoints);
       }
       ofDerivatives_ = { std::move(found.report), found.accuracy, {} };
       ofDerivatives_.accuracy.largest = surface.Largest(found.accuracy.largest);
@@ -129,7 +128,7 @@ void GradientSolver::Decompose(const Surface& surface, const Input& input, const
       parts.push_back({ "StreamFunction", std::move(found.streamAtPoints), {} });
       for (Derived& part : parts)
       {
-        surface.ClearUnreached(part.atPoints);
+        surface.CompleteAtPoints(part.atPoints);
       }
       ofParts_ = { std::move(found.report), found.accuracy, WarningOfOneSided(found) };
     });

@@ -148,7 +148,7 @@ ConstrainedSolution InterpolationSolver::InterpolateBetween(
 void InterpolationSolver::Take(
   ConstrainedSolution solution, const Surface& surface, const Options& options)
 {
-  surface.ClearUnreached(result_.atPoints);
+  surface.CompleteAtPoints(result_.atPoints);
   result_.atPoints.rowwise() += constants_;
   result_.warnings = WarningsOfValues(solution, options.equation.solve.tolerance);
   result_.report = std::move(solution.report);

@@ -46,14 +46,14 @@ void Surface::Require(const MemoryNeed& own) const
 MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progress& progress) const
 {
   MultiVector values = this->Space().ValuesAtPoints(coefficients, this->MakeJob(progress));
-  this->FillCopies(values);
-  this->ClearUnreached(values);
+  this->CompleteAtPoints(values);
   return values;
 }
 
-void Surface::ClearUnreached(MultiVector& atPoints) const
+void Surface::CompleteAtPoints(MultiVector& atPoints) const
 {
-  ClearRows(this->PointsWithFunctions(), atPoints);
+  ClearRows(this->Space().PointsWithFunctions(), atPoints);
+  this->FillCopies(atPoints);
 }
 
 } // namespace gridfem

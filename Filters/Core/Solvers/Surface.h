@@ -136,8 +136,9 @@ public:
   /// Gives copied points the rows of their originals.
   virtual void FillCopies(MultiVector& /*atPoints*/) const {}
 
-  /// Makes rows NaN at points that no function reaches, the rule for results of all solvers.
-  void ClearUnreached(MultiVector& atPoints) const;
+  /// Makes rows NaN at points that no function reaches, the rule for results of all solvers, and
+  /// gives copied points the rows of their originals.
+  void CompleteAtPoints(MultiVector& atPoints) const;
 
   /// A solution at the points of this process, with a row for each. NaN where no function reaches.
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;

@@ -1,6 +1,7 @@
 #include "BasisConversion.h"
 
 #include "Base/Errors.h"
+#include "Grid/SegmentTree.h"
 
 #include <Eigen/Geometry>
 
@@ -106,14 +107,6 @@ std::array<double, 3> WeightsIn(
     grid.ToGrid(mesh.points[corner[2]]), position);
 }
 
-double DistanceFromSegment(const Vec3& a, const Vec3& b, const Vec3& position)
-{
-  const Vec3 along = b - a;
-  const double square = along.squaredNorm();
-  const double at = square > 0.0 ? (position - a).dot(along) / square : 0.0;
-  return (a + std::clamp(at, 0.0, 1.0) * along - position).norm();
-}
-
 /// Returns the distance in cells. It includes the edges, because barycentric coordinates in slivers
 /// are pure rounding.
 double DistanceFromTriangle(
@@ -125,9 +118,9 @@ double DistanceFromTriangle(
     corner[k] = grid.ToGrid(mesh.points[mesh.triangles[triangle][k]]);
   }
   const auto weight = Barycentric(corner[0], corner[1], corner[2], position);
-  double distance = std::min({ DistanceFromSegment(corner[0], corner[1], position),
-    DistanceFromSegment(corner[1], corner[2], position),
-    DistanceFromSegment(corner[2], corner[0], position) });
+  double distance = std::min({ DistanceFromSegment({ corner[0], corner[1] }, position),
+    DistanceFromSegment({ corner[1], corner[2] }, position),
+    DistanceFromSegment({ corner[2], corner[0] }, position) });
   if (std::min({ weight[0], weight[1], weight[2] }) >= 0.0)
   {
     const Vec3 nearest = weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];

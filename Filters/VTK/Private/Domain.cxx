@@ -1,6 +1,5 @@
 #include "Domain.h"
 
-#include "InformationCopy.h"
 #include "InputSurface.h"
 #include "PieceArrays.h"
 
@@ -58,10 +57,7 @@ vtkInformationVector** Domain::Apply(
   }
   surface_->ShallowCopy(surface);
   surface_->GetCellData()->AddArray(marks_);
-  first_->SetInformationObject(0, CopyWith(surface_, inputs[0]->GetInformationObject(0)));
-  ports_.assign(inputs, inputs + numberOfPorts);
-  ports_[0] = first_;
-  return ports_.data();
+  return inputs_.Of(inputs, numberOfPorts, surface_);
 }
 
 void Domain::Mark(vtkPolyData* surface, const InputArray& array)
@@ -107,7 +103,7 @@ void Domain::Free()
   marks_ = nullptr;
   given_ = nullptr;
   surface_->Initialize();
-  first_->SetNumberOfInformationObjects(0);
+  inputs_.Free();
 }
 
 } // namespace gridfem

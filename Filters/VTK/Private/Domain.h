@@ -2,13 +2,12 @@
 #ifndef GridFEM_Domain_h
 #define GridFEM_Domain_h
 
+#include "InformationCopy.h"
 #include "InputArray.h"
 #include "Solvers/Stages.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
-
-#include <vector>
 
 class vtkAlgorithm;
 class vtkInformationVector;
@@ -48,8 +47,7 @@ private:
   vtkSmartPointer<vtkUnsignedCharArray> marks_;
   vtkSmartPointer<vtkUnsignedCharArray> given_; // of the input; null: none
   vtkNew<vtkPolyData> surface_;
-  vtkNew<vtkInformationVector> first_;
-  std::vector<vtkInformationVector*> ports_;
+  OtherFirstInput inputs_;
 };
 
 } // namespace gridfem

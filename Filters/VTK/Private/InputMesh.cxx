@@ -192,17 +192,8 @@ template<class IsKept>
 void KeepCells(
   vtkUnsignedCharArray* ghosts, InputMesh& mesh, TriangleMesh& triangles, IsKept&& isKept)
 {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.sourceCell.size(); ++t)
-  {
-    if (isKept(ghosts ? ghosts->GetValue(mesh.sourceCell[t]) : 0))
-    {
-      triangles.triangles[kept] = triangles.triangles[t];
-      mesh.sourceCell[kept++] = mesh.sourceCell[t];
-    }
-  }
-  triangles.triangles.resize(kept);
-  mesh.sourceCell.resize(kept);
+  KeepTriangles(triangles, mesh.sourceCell,
+    [&](std::size_t t) { return isKept(ghosts ? ghosts->GetValue(mesh.sourceCell[t]) : 0); });
 }
 
 bool IsShown(int mark)
@@ -269,7 +260,7 @@ InputMesh ReadInputMesh(
     throw InvalidInput("All polygons lie outside the Domain Array, or are hidden or duplicates "
                        "according to the array vtkGhostType.");
   }
-  DropCopies(*triangles, mesh.sourceCell);
+  DropCopies(*triangles, mesh.sourceCell, threads);
   if (weldCoincidentPoints)
   {
     Join(mesh, *triangles, threads);
@@ -304,7 +295,7 @@ InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
       [](int mark) { return (mark & vtkDataSetAttributes::DUPLICATECELL) != 0; });
     KeepCells(ghosts, mesh, *triangles, IsShown);
   }
-  DropCopies(*triangles, mesh.sourceCell);
+  DropCopies(*triangles, mesh.sourceCell, threads);
   copies.triangles = std::move(triangleCopies);
   mesh.triangles = std::move(triangles);
   return mesh;

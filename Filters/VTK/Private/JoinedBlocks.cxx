@@ -1,6 +1,5 @@
 #include "JoinedBlocks.h"
 
-#include "InformationCopy.h"
 #include "InputValidation.h"
 #include "RankedOutput.h"
 
@@ -187,11 +186,7 @@ vtkInformationVector** JoinedBlocks::Inputs(
   {
     CopyTime(blocks_.front().data->GetInformation(), entry_->surface.whole->GetInformation());
   }
-  first_->SetInformationObject(
-    0, CopyWith(entry_->surface.whole, inputs[0]->GetInformationObject(0)));
-  ports_.assign(inputs, inputs + ports);
-  ports_[0] = first_;
-  return ports_.data();
+  return inputs_.Of(inputs, ports, entry_->surface.whole);
 }
 
 void JoinedBlocks::HandBack(vtkDataSet* data, vtkInformationVector* outputs) const
@@ -243,7 +238,7 @@ void JoinedBlocks::Finish(bool isKept)
   failure_ = nullptr;
   blocks_.clear();
   results_->SetNumberOfInformationObjects(0);
-  first_->SetNumberOfInformationObjects(0);
+  inputs_.Free();
   entry_ = nullptr;
   if (!isKept)
   {

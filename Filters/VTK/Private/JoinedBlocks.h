@@ -4,6 +4,7 @@
 #define GridFEM_JoinedBlocks_h
 
 #include "GatheredSurface.h"
+#include "InformationCopy.h"
 #include "Solvers/Stages.h"
 #include "SurfaceInput.h"
 
@@ -93,8 +94,7 @@ private:
   std::vector<std::unique_ptr<SurfaceInput>> surfaces_; // of blocks that are none themselves
   std::map<std::vector<bool>, Entry> entries_;          // by which blocks are left out
   Entry* entry_ = nullptr;
-  vtkNew<vtkInformationVector> first_;
-  std::vector<vtkInformationVector*> ports_;
+  OtherFirstInput inputs_;
   vtkNew<vtkInformationVector> results_;
   std::exception_ptr failure_;
   bool hasStarted_ = false;

@@ -1,7 +1,5 @@
 #include "SurfaceInput.h"
 
-#include "InformationCopy.h"
-
 #include "Base/Errors.h"
 
 #include "vtkDataSet.h"
@@ -29,10 +27,7 @@ vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numbe
   {
     throw InvalidInput("The input has no surface: neither polygons nor volume cells.");
   }
-  first_->SetInformationObject(0, CopyWith(surface_, inputs[0]->GetInformationObject(0)));
-  ports_.assign(inputs, inputs + numberOfPorts);
-  ports_[0] = first_;
-  return ports_.data();
+  return inputs_.Of(inputs, numberOfPorts, surface_);
 }
 
 vtkPolyData* SurfaceInput::Of(vtkDataSet* data)
@@ -66,7 +61,7 @@ void SurfaceInput::Extract(vtkDataSet* data)
 void SurfaceInput::Free()
 {
   surface_->Initialize();
-  first_->SetNumberOfInformationObjects(0);
+  inputs_.Free();
   extracted_ = 0;
 }
 

@@ -2,10 +2,10 @@
 #ifndef GridFEM_SurfaceInput_h
 #define GridFEM_SurfaceInput_h
 
+#include "InformationCopy.h"
+
 #include "vtkNew.h"
 #include "vtkType.h"
-
-#include <vector>
 
 class vtkDataSet;
 class vtkInformationVector;
@@ -39,8 +39,7 @@ private:
 
   vtkNew<vtkPolyData> surface_;
   vtkMTimeType extracted_ = 0; // the data set that the surface is of
-  vtkNew<vtkInformationVector> first_;
-  std::vector<vtkInformationVector*> ports_;
+  OtherFirstInput inputs_;
 };
 
 } // namespace gridfem

@@ -4,6 +4,7 @@
 #include "Base/Errors.h"
 #include "Largest.h"
 #include "Meshes.h"
+#include "SameSeams.h"
 
 #include <gtest/gtest.h>
 
@@ -326,18 +327,7 @@ TEST(FindSeams, DoNotDependOnTheOrderOfEdges)
   EXPECT_FALSE(seams.divisions.empty());
   std::shuffle(open.begin(), open.end(), std::mt19937(1));
   const Seams other = FindSeams(open, shortest, 3.0);
-  ASSERT_EQ(other.moves.size(), seams.moves.size());
-  for (std::size_t k = 0; k < seams.moves.size(); ++k)
-  {
-    EXPECT_EQ(other.moves[k].from, seams.moves[k].from);
-    EXPECT_EQ(other.moves[k].to, seams.moves[k].to);
-  }
-  ASSERT_EQ(other.divisions.size(), seams.divisions.size());
-  for (std::size_t k = 0; k < seams.divisions.size(); ++k)
-  {
-    EXPECT_EQ(other.divisions[k].ends, seams.divisions[k].ends);
-    EXPECT_EQ(other.divisions[k].nodes, seams.divisions[k].nodes);
-  }
+  ExpectSameSeams(other, seams);
 }
 
 TEST(JoinSeams, RefusesWhatIsNoSurface)
