@@ -15,7 +15,7 @@ same time.
 
 Measured: 96 % of all lines, 93 % of Krylov/, 94 % or more of every other folder.
 Left out are real meshes, which not every machine has, and the tests of filters, of the Python package and of
-MPI ranks: so what Core does for ranks alone (Grid/CellRegion.cxx, Multigrid/DividedLevel.cxx) counts as not
+MPI ranks: so what Core does for ranks alone (Grid/CellRegion.cxx, Multigrid/DistributedLevel.cxx) counts as not
 run.
 HELP
   exit

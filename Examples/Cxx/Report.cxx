@@ -1,6 +1,6 @@
 #include "Report.h"
 
-#include <Problems/MemoryEstimate.h>
+#include <Solvers/MemoryEstimate.h>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>

@@ -53,7 +53,7 @@ public:
   bool IsShared() const override { return true; }
   void Together(const std::function<void()>& body) const override { ranks_.Together(body); }
   void Require(const MemoryNeed& own) const override;
-  const DividedRows* SumsOverProcesses() const override { return &numbers_; }
+  const DistributedRows* SumsOverProcesses() const override { return &numbers_; }
   double Largest(double own) const override;
   bool IsFirst(bool holds) const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;

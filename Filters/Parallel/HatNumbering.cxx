@@ -155,14 +155,14 @@ void TakeNumbers(const Communicator& ranks, LevelNumbering& numbering)
     [&]
     {
       RequireIndices(static_cast<double>(numbering.total), "hat functions of all ranks");
-      rows = std::make_unique<const RankRows>(ranks, numbering.foreign, numbering.neighbours);
+      rows = std::make_unique<const RankRows>(ranks, numbering.ghosts, numbering.neighbours);
       number = MultiVector::Zero(static_cast<Id>(numbering.touching.size()), 1);
-      for (Id row = numbering.foreign; row < number.rows(); ++row)
+      for (Id row = numbering.ghosts; row < number.rows(); ++row)
       {
-        number(row, 0) = static_cast<double>(numbering.begin + row - numbering.foreign);
+        number(row, 0) = static_cast<double>(numbering.begin + row - numbering.ghosts);
       }
     });
-  rows->TakeForeign(number);
+  rows->TakeGhosts(number);
   ranks.Together([&] { numbering.number.assign(number.data(), number.data() + number.size()); });
 }
 
@@ -187,12 +187,11 @@ LevelNumbering NumberHats(const Communicator& ranks, const HatList& hats, std::v
         place[order[k]] = static_cast<Index>(k);
         numbering.touching.push_back(
           std::max<Index>(1, static_cast<Index>(holders[order[k]].size())));
-        numbering.foreign += ownerOf(order[k]) < ranks.Rank() ? 1 : 0;
+        numbering.ghosts += ownerOf(order[k]) < ranks.Rank() ? 1 : 0;
       }
       numbering.neighbours = NeighboursOf(holders, order, ranks.Rank());
     });
-  const Communicator::Share share =
-    ranks.ShareOf(static_cast<Id>(place.size()) - numbering.foreign);
+  const Communicator::Share share = ranks.ShareOf(static_cast<Id>(place.size()) - numbering.ghosts);
   numbering.begin = share.before;
   numbering.total = share.total;
   TakeNumbers(ranks, numbering);

@@ -2,8 +2,8 @@
 #ifndef GridFEM_HeldPoints_h
 #define GridFEM_HeldPoints_h
 
+#include "Equations/EdgeConditions.h"
 #include "Parallel/RankLevels.h"
-#include "Problems/EdgeConditions.h"
 
 #include <vector>
 

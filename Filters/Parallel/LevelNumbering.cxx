@@ -154,7 +154,7 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
   LevelNumbering numbering;
   std::vector<Id> number;
   std::vector<Index> own;
-  std::vector<std::vector<Index>> foreign(ranks.Size());
+  std::vector<std::vector<Index>> ghosts(ranks.Size());
   std::vector<std::vector<PatchCorner>> wanted(ranks.Size());
   std::optional<Touching> touching;
   ranks.Together(
@@ -175,7 +175,7 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
         }
         else
         {
-          foreign[owner].push_back(function);
+          ghosts[owner].push_back(function);
           wanted[owner].push_back(touching->Describe(function));
         }
       }
@@ -210,13 +210,13 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
       std::vector<Index> functions;
       for (int rank = 0; rank < ranks.Size(); ++rank)
       {
-        for (std::size_t k = 0; k < foreign[rank].size(); ++k)
+        for (std::size_t k = 0; k < ghosts[rank].size(); ++k)
         {
-          number[foreign[rank][k]] = told[rank][k];
-          functions.push_back(foreign[rank][k]);
+          number[ghosts[rank][k]] = told[rank][k];
+          functions.push_back(ghosts[rank][k]);
         }
       }
-      numbering.foreign = static_cast<Index>(functions.size());
+      numbering.ghosts = static_cast<Index>(functions.size());
       std::sort(functions.begin(), functions.end(),
         [&](Index a, Index b) { return number[a] < number[b]; });
       functions.insert(functions.end(), own.begin(), own.end());

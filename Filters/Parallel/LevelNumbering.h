@@ -28,11 +28,11 @@ struct LevelNumbering
   Id total = 0; // functions of all ranks
   std::vector<Id> number;
   std::vector<Index> touching;           // number of ranks that each function touches
-  Index foreign = 0;                     // number of functions that belong to other ranks
+  Index ghosts = 0;                      // number of functions that belong to other ranks
   std::vector<RankNeighbour> neighbours; // ascending by rank
 
   Index Functions() const { return static_cast<Index>(number.size()); }
-  Index OwnFunctions() const { return this->Functions() - foreign; }
+  Index OwnFunctions() const { return this->Functions() - ghosts; }
 };
 
 /// Patches first .. last of a level are the patches in cells that this rank owns.

@@ -136,7 +136,7 @@ BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoint
   {
     const MultiVector received = space.Distribution().SendPoints(*flux);
     ranks.Together([&] { terms.load = LoadOnEdges(own, mesh, edges, received); });
-    levels.Divided(0)->Sum(terms.load);
+    levels.Distributed(0)->Sum(terms.load);
   }
   if (terms.isThere && values)
   {

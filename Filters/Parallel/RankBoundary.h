@@ -1,10 +1,10 @@
 // Terms that the boundary of a surface on several ranks adds to an equation.
-// [Problems/EdgeConditions.h]
+// [Equations/EdgeConditions.h]
 #ifndef GridFEM_RankBoundary_h
 #define GridFEM_RankBoundary_h
 
+#include "Equations/EdgeConditions.h"
 #include "Parallel/RankLevels.h"
-#include "Problems/EdgeConditions.h"
 
 namespace gridfem
 {

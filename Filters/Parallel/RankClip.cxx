@@ -4,8 +4,8 @@
 #include "Parallel/LevelNumbering.h"
 #include "Parallel/OwnPieces.h"
 #include "Parallel/RankMemory.h"
-#include "Problems/MemoryEstimate.h"
-#include "Problems/Requirements.h"
+#include "Solvers/MemoryEstimate.h"
+#include "Solvers/Requirements.h"
 
 #include <algorithm>
 #include <array>

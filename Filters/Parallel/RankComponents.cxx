@@ -54,7 +54,7 @@ Components ComponentsOfRanks(const Communicator& ranks, const LevelNumbering& nu
   ranks.Together(
     [&]
     {
-      for (Index f = numbering.foreign; f < numbering.Functions(); ++f)
+      for (Index f = numbering.ghosts; f < numbering.Functions(); ++f)
       {
         if (lowest(f, 0) == static_cast<double>(numbering.number[f]))
         {

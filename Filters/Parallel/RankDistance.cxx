@@ -1,8 +1,8 @@
 #include "Parallel/RankDistance.h"
 
+#include "Distance/StraightDistance.h"
+#include "Equations/Poisson.h"
 #include "Parallel/HeldPoints.h"
-#include "Problems/Poisson.h"
-#include "Problems/StraightDistance.h"
 #include "Spaces/PointComponents.h"
 
 #include <array>
@@ -44,7 +44,7 @@ MultiVector LoadOfRows(const RankLevels& levels, const SparseMatrix& rows)
         load(rows.column[k], 0) += rows.value[k];
       }
     });
-  levels.Divided(0)->Sum(load);
+  levels.Distributed(0)->Sum(load);
   return load;
 }
 
@@ -159,8 +159,8 @@ std::vector<double> RankDistance::ZeroesAt(
     }
     count[component[row]] += 1.0;
   }
-  SumOverProcesses(levels_.Divided(0), sum);
-  SumOverProcesses(levels_.Divided(0), count);
+  SumOverProcesses(levels_.Distributed(0), sum);
+  SumOverProcesses(levels_.Distributed(0), count);
   for (std::size_t c = 0; c < sum.size(); ++c)
   {
     sum[c] = count[c] > 0.0 ? sum[c] / count[c] : std::numeric_limits<double>::quiet_NaN();

@@ -1,10 +1,10 @@
 // The distance along a surface on several ranks from the nearest of some points.
-// [Problems/GeodesicDistance.h]
+// [Distance/GeodesicDistance.h]
 #ifndef GridFEM_RankDistance_h
 #define GridFEM_RankDistance_h
 
+#include "Distance/GeodesicDistance.h"
 #include "Parallel/RankHeat.h"
-#include "Problems/GeodesicDistance.h"
 
 #include <memory>
 #include <vector>

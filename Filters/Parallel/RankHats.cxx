@@ -151,7 +151,7 @@ private:
 void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
 {
   std::vector<Index> alone;
-  for (Index hat = numbering.foreign; hat < numbering.Functions(); ++hat)
+  for (Index hat = numbering.ghosts; hat < numbering.Functions(); ++hat)
   {
     if (numbering.touching[hat] == 1)
     {
@@ -223,7 +223,7 @@ std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering&
       for (Index hat = 0; hat < numbering.Functions(); ++hat)
       {
         isEvaluated.push_back(
-          first(hat, 0) == NoRank ? hat >= numbering.foreign : first(hat, 0) == ranks.Rank());
+          first(hat, 0) == NoRank ? hat >= numbering.ghosts : first(hat, 0) == ranks.Rank());
       }
     });
   return isEvaluated;
@@ -257,7 +257,7 @@ RankHats::RankHats(const RankSpace& space, const Job& job)
       level->matrices = AssembleHatMatrices(space.Own().Mesh(), level->functions, {}, job.threads);
       job.Check(0.5);
       OrderAlone(*numbering_, job.threads, *level);
-      rows = std::make_unique<const RankRows>(ranks, numbering_->foreign, numbering_->neighbours);
+      rows = std::make_unique<const RankRows>(ranks, numbering_->ghosts, numbering_->neighbours);
       job.Check(0.7);
     });
   level->prolongation = BuildProlongation(space, atPoints, *rows, job.threads);

@@ -154,7 +154,7 @@ void RankHeat::TakeOthers(MultiVector& u) const
 {
   MultiVector here;
   ranks_.Together([&] { here = u.topRows(functions_); });
-  levels_.Divided(0)->TakeForeign(here);
+  levels_.Distributed(0)->TakeGhosts(here);
   std::vector<std::vector<double>> values(ranks_.Size());
   ranks_.Together(
     [&]
@@ -195,7 +195,7 @@ Id RankHeat::CountUnreached(const MultiVector& heat) const
   }
   ranks_.Maximum(isReached.data(), components_.count);
   double unreached = 0.0;
-  for (Index function = levels_.Divided(0)->Foreign(); function < functions_; ++function)
+  for (Index function = levels_.Distributed(0)->Ghosts(); function < functions_; ++function)
   {
     unreached +=
       !hasHeat(function) && isReached[components_.ofFunction[function]] > 0.0 ? 1.0 : 0.0;

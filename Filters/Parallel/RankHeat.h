@@ -1,9 +1,9 @@
-// Heat that has spread from its sources, on a surface on several ranks. [Problems/DistantHeat.h]
+// Heat that has spread from its sources, on a surface on several ranks. [Distance/DistantHeat.h]
 #ifndef GridFEM_RankHeat_h
 #define GridFEM_RankHeat_h
 
+#include "Distance/DistantHeat.h"
 #include "Parallel/RankLevels.h"
-#include "Problems/DistantHeat.h"
 
 #include <memory>
 #include <vector>

@@ -251,7 +251,7 @@ LevelBorder BorderOfGroups(
       SortEachOnce(border.functions);
       for (std::size_t place = 0; place < border.functions.size(); ++place)
       {
-        if (border.functions[place] >= numbering.foreign)
+        if (border.functions[place] >= numbering.ghosts)
         {
           own.push_back(static_cast<Index>(place));
         }
@@ -285,9 +285,9 @@ RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
       {
         Renumber(border_, neighbour.functions);
       }
-      const auto foreign = static_cast<Index>(
-        std::lower_bound(border_.begin(), border_.end(), numbering.foreign) - border_.begin());
-      borderRows_ = std::make_unique<RankRows>(ranks, foreign, neighbours);
+      const auto ghosts = static_cast<Index>(
+        std::lower_bound(border_.begin(), border_.end(), numbering.ghosts) - border_.begin());
+      borderRows_ = std::make_unique<RankRows>(ranks, ghosts, neighbours);
     });
   matrix_ = WholeMatrix(ranks, A, border_, numbering, neighbours);
   ranks.Together(

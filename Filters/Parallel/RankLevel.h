@@ -4,7 +4,7 @@
 #define GridFEM_RankLevel_h
 
 #include "Grid/PatchLevel.h"
-#include "Multigrid/DividedLevel.h"
+#include "Multigrid/DistributedLevel.h"
 #include "Parallel/RankRows.h"
 
 #include <functional>
@@ -50,15 +50,13 @@ LevelBorder BorderOfPatches(
 LevelBorder BorderOfGroups(
   const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& A, int threads);
 
-/// The smoother and the transfer of a divided level. A sweep relaxes the patches of a rank's cells
-/// in steps.
-/// Patches without functions of other ranks do not touch patches of other ranks. All ranks relax
-/// them at the same time, without a message, with the result of one rank. The patches of the border
-/// follow, each step from the remaining residual. A backward sweep is the adjoint of a forward
-/// sweep.
-/// Residuals are not weighted. A weighted part would not be consistent where the matrix is singular
-/// on a few functions, as on small flat pieces.
-class RankLevel : public DividedLevel
+/// The smoother and the transfer of a distributed level. A sweep relaxes the patches of a rank's
+/// cells in steps. Patches without functions of other ranks do not touch patches of other ranks.
+/// All ranks relax them at the same time, without a message, with the result of one rank. The
+/// patches of the border follow, each step from the remaining residual. A backward sweep is the
+/// adjoint of a forward sweep. Residuals are not weighted. A weighted part would not be consistent
+/// where the matrix is singular on a few functions, as on small flat pieces.
+class RankLevel : public DistributedLevel
 {
 public:
   /// Collective. Keeps references to the rows.
@@ -67,7 +65,7 @@ public:
   RankLevel(const Communicator& ranks, const LevelNumbering& numbering, const RankRows& rows,
     const RankRows* coarse, LevelBorder border, const SparseMatrix& A, int threads);
 
-  const DividedRows& Rows() const override { return rows_; }
+  const DistributedRows& Rows() const override { return rows_; }
   void SumCoarse(Block<float> x) const override;
   void SumCoarse(Block<double> x) const override;
   const std::vector<Index>& Border() const override { return border_; }

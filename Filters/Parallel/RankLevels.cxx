@@ -21,12 +21,12 @@ RankLevels::RankLevels(const RankSpace& space, const RankHats* hats) : space_(sp
       if (hats)
       {
         rows_.emplace_back(
-          space.Ranks(), hats->Numbering().foreign, hats->Numbering().neighbours, true);
+          space.Ranks(), hats->Numbering().ghosts, hats->Numbering().neighbours, true);
       }
       const std::vector<LevelNumbering>& numberings = space.Numberings();
       for (std::size_t l = 0; l < numberings.size(); ++l)
       {
-        rows_.emplace_back(space.Ranks(), numberings[l].foreign, numberings[l].neighbours);
+        rows_.emplace_back(space.Ranks(), numberings[l].ghosts, numberings[l].neighbours);
         parts_.push_back(PatchesByRanks(space.Own().Functions().levels[l], numberings[l]));
       }
       integrals_ = this->Own().Integrals();
@@ -315,12 +315,12 @@ std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
   return { weighed, weighed->levels.get() };
 }
 
-const DividedRows* RankLevels::Divided(std::size_t level) const
+const DistributedRows* RankLevels::Distributed(std::size_t level) const
 {
   return this->IsDivided(level) ? &rows_[level] : nullptr;
 }
 
-std::shared_ptr<const DividedLevel> RankLevels::Divide(
+std::shared_ptr<const DistributedLevel> RankLevels::Divide(
   std::size_t level, const SparseMatrix& A, const MultigridOptions& options) const
 {
   if (!this->IsDivided(level))

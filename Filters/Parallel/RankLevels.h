@@ -13,7 +13,7 @@
 namespace gridfem
 {
 
-/// The divided levels come first: the functions of RankHats::Numbering if there are hats, then
+/// The distributed levels come first: the functions of RankHats::Numbering if there are hats, then
 /// those of RankSpace::Numberings. The shared levels follow. The mesh consists of the rank's own
 /// triangles. All functions are collective, except functions that return a number or a reference. A
 /// progress passed to them has to give the same answer on all ranks. Keeps references to the space
@@ -29,7 +29,7 @@ public:
   /// This rank's part of the finest level, as a space on the triangles that the rank has received.
   const FiniteElementSpace& Own() const;
 
-  /// Numbering of a divided level.
+  /// Numbering of a distributed level.
   const LevelNumbering& Numbering(std::size_t level) const;
 
   const RankRows& Rows(std::size_t level) const { return rows_[level]; }
@@ -74,8 +74,8 @@ public:
   std::shared_ptr<const SurfaceSpace> WithWeighedMass(
     const std::vector<double>& weight, const Job& job = {}) const override;
   void SumAtPoints(MultiVector& parts) const override { space_.SumAtPoints(parts); }
-  const DividedRows* Divided(std::size_t level) const override;
-  std::shared_ptr<const DividedLevel> Divide(
+  const DistributedRows* Distributed(std::size_t level) const override;
+  std::shared_ptr<const DistributedLevel> Divide(
     std::size_t level, const SparseMatrix& A, const MultigridOptions& options) const override;
 
 private:
@@ -96,8 +96,8 @@ private:
   const RankSpace& space_;
   const RankHats* hats_;
   std::unique_ptr<const RankLevels> grid_;     // if there are hats
-  std::vector<RankRows> rows_;                 // of the divided levels
-  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks of the grid's divided levels
+  std::vector<RankRows> rows_;                 // of the distributed levels
+  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks of the grid's distributed levels
   std::vector<double> integrals_;
   /// Areas of this rank's parts of the triangles that it has received, as the functions see them.
   std::vector<double> areas_;

@@ -1,7 +1,7 @@
 #include "Parallel/RankMemory.h"
 
-#include "Problems/MemoryEstimate.h"
-#include "Problems/Requirements.h"
+#include "Solvers/MemoryEstimate.h"
+#include "Solvers/Requirements.h"
 
 #include <string>
 

@@ -40,30 +40,30 @@ void ForColumns(Block<Real> x, Body&& body)
 
 } // namespace
 
-RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours,
+RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbour> neighbours,
   bool arePartsProlonged)
-  : ranks_(ranks), foreign_(foreign), arePartsProlonged_(arePartsProlonged),
+  : ranks_(ranks), ghosts_(ghosts), arePartsProlonged_(arePartsProlonged),
     neighbours_(std::move(neighbours))
 {
-  std::vector<char> hasOwner(foreign_, 0);
+  std::vector<char> hasOwner(ghosts_, 0);
   std::size_t rows = 0;
   for (const RankNeighbour& neighbour : neighbours_)
   {
     shared_.push_back(neighbour.functions);
     ownOfShared_.emplace_back();
-    foreignOfShared_.emplace_back();
+    ghostsOfShared_.emplace_back();
     lower_ += neighbour.rank < ranks_.Rank() ? 1 : 0;
     rows += neighbour.functions.size();
     for (const Index row : neighbour.functions)
     {
       all_.push_back(row);
-      if (row >= foreign_)
+      if (row >= ghosts_)
       {
         ownOfShared_.back().push_back(row);
       }
       else if (!hasOwner[row]) // the lowest rank that holds it
       {
-        foreignOfShared_.back().push_back(row);
+        ghostsOfShared_.back().push_back(row);
         hasOwner[row] = 1;
       }
     }
@@ -172,9 +172,9 @@ void RankRows::SumParts(Block<Real> x) const
 template<class Real>
 void RankRows::TakeOwners(Block<Real> x) const
 {
-  this->Exchange<Real>(ownOfShared_, foreignOfShared_, x);
+  this->Exchange<Real>(ownOfShared_, ghostsOfShared_, x);
   this->ForReceived<Real>(
-    foreignOfShared_, x.cols(), [&](Index row, const auto& values) { x.row(row) = values; });
+    ghostsOfShared_, x.cols(), [&](Index row, const auto& values) { x.row(row) = values; });
 }
 
 void RankRows::Sum(Block<float> x) const
@@ -187,12 +187,12 @@ void RankRows::Sum(Block<double> x) const
   ForColumns<double>(x, [this](const Block<double>& some) { this->SumParts<double>(some); });
 }
 
-void RankRows::TakeForeign(Block<float> x) const
+void RankRows::TakeGhosts(Block<float> x) const
 {
   ForColumns<float>(x, [this](const Block<float>& some) { this->TakeOwners<float>(some); });
 }
 
-void RankRows::TakeForeign(Block<double> x) const
+void RankRows::TakeGhosts(Block<double> x) const
 {
   ForColumns<double>(x, [this](const Block<double>& some) { this->TakeOwners<double>(some); });
 }

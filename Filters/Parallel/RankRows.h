@@ -2,7 +2,7 @@
 #ifndef GridFEM_RankRows_h
 #define GridFEM_RankRows_h
 
-#include "Algebra/DividedRows.h"
+#include "Algebra/DistributedRows.h"
 #include "Parallel/LevelNumbering.h"
 
 #include <vector>
@@ -12,23 +12,23 @@ namespace gridfem
 
 /// The rows belong to the functions of a numbering, or to some of them. Ranks exchange their shared
 /// rows, in one message for up to 32 columns. Buffers are allocated at the start. All functions but
-/// Foreign are collective.
-class RankRows : public DividedRows
+/// Ghosts are collective.
+class RankRows : public DistributedRows
 {
 public:
-  /// @param foreign     number of rows that belong to other ranks, which come first
+  /// @param ghosts     number of rows that belong to other ranks, which come first
   /// @param neighbours  for each other rank, in ascending order: the shared rows, in the same order
   ///   on both ranks
-  /// @param arePartsProlonged  see DividedRows
-  RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours,
+  /// @param arePartsProlonged  see DistributedRows
+  RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbour> neighbours,
     bool arePartsProlonged = false);
 
-  Index Foreign() const override { return foreign_; }
+  Index Ghosts() const override { return ghosts_; }
   bool ArePartsProlonged() const override { return arePartsProlonged_; }
   void Sum(Block<float> x) const override;
   void Sum(Block<double> x) const override;
-  void TakeForeign(Block<float> x) const override;
-  void TakeForeign(Block<double> x) const override;
+  void TakeGhosts(Block<float> x) const override;
+  void TakeGhosts(Block<double> x) const override;
   void SumNumbers(double* values, Id count) const override { ranks_.Sum(values, count); }
   MultiVector Gather(const Eigen::RowVectorXd& numbers) const override;
 
@@ -48,13 +48,13 @@ private:
   void TakeOwners(Block<Real> x) const;
 
   Communicator ranks_;
-  Index foreign_;
+  Index ghosts_;
   bool arePartsProlonged_;
   std::vector<RankNeighbour> neighbours_;
   std::size_t lower_ = 0;  // number of neighbors with lower rank
   Rows shared_;            // shared with each neighbor
   Rows ownOfShared_;       // shared rows that belong to this rank
-  Rows foreignOfShared_;   // shared rows that belong to the neighbor
+  Rows ghostsOfShared_;    // shared rows that belong to the neighbor
   std::vector<Index> all_; // rows that any neighbor holds, ascending
   // Buffers for the rows of a message, and for this rank's own values in these rows. Only one call
   // may be active.

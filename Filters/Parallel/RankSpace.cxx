@@ -172,12 +172,13 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
     [&]
     {
       FindComponents(all, functions.threads);
-      auto divided = std::make_shared<const GridFunctions>(std::move(all));
+      auto distributed = std::make_shared<const GridFunctions>(std::move(all));
       // All levels of this rank. None of them is the coarsest level of the whole.
       auto operators = std::make_shared<const LevelOperators>(
-        BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
+        BuildLevelOperators(*distributed, TriangleRule(options.space.quadratureDegree),
           { functions.threads, progress.Part(0.6, 1.0) }, -1, options.space.normalStabilization));
-      own_ = std::make_shared<const GridSpace>(clip.mesh, std::move(divided), std::move(operators));
+      own_ =
+        std::make_shared<const GridSpace>(clip.mesh, std::move(distributed), std::move(operators));
       auto whole = std::make_shared<GridFunctions>();
       whole->support = support;
       whole->clipped.grid = own_->Functions().GetGrid();
@@ -248,19 +249,19 @@ RankSpace RankSpace::WithOwn(GridSpace own, int threads) const
 std::vector<PatchLevel> RankSpace::Divide(
   GridFunctions& all, const Array<Link>& links, const BlockPartition& partition)
 {
-  const std::size_t divided = all.GetGrid().depth - partition.Depth();
+  const std::size_t distributed = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;
   std::vector<PatchRange> ranges;
   ranks_.Together(
     [&]
     {
-      for (std::size_t l = 0; l <= divided; ++l)
+      for (std::size_t l = 0; l <= distributed; ++l)
       {
         ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
         levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
       }
     });
-  for (std::size_t l = 0; l < divided; ++l)
+  for (std::size_t l = 0; l < distributed; ++l)
   {
     std::vector<Index> place;
     numberings_->push_back(NumberLevel(ranks_, partition, all.levels[l], place));
@@ -274,7 +275,8 @@ std::vector<PatchLevel> RankSpace::Divide(
     }
     ranks_.Together([&] { SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]); });
   }
-  std::vector<PatchLevel> shared = this->Share(all.levels[divided], links, partition, all.support);
+  std::vector<PatchLevel> shared =
+    this->Share(all.levels[distributed], links, partition, all.support);
   const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
   const auto first = shared.front().dof.begin() + patches.before;
   std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());

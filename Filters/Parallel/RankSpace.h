@@ -32,13 +32,13 @@ public:
   /// The rank whose cells contain a point of the surface, world units.
   int OwnerOfPoint(const Vec3& point) const;
 
-  /// The patches of this rank's cells as a space of their own. Its levels are the divided levels
-  /// and the first shared level. Functions of divided levels are those of Numberings(), so that
-  /// matrices and integrals are this rank's parts of the sums over all ranks. Its mesh is the mesh
-  /// that the rank has received.
+  /// The patches of this rank's cells as a space of their own. Its levels are the distributed
+  /// levels and the first shared level. Functions of distributed levels are those of Numberings(),
+  /// so that matrices and integrals are this rank's parts of the sums over all ranks. Its mesh is
+  /// the mesh that the rank has received.
   const GridSpace& Own() const { return *own_; }
 
-  /// The numberings of the divided levels, finest first.
+  /// The numberings of the distributed levels, finest first.
   const std::vector<LevelNumbering>& Numberings() const { return *numberings_; }
 
   /// The level of the blocks and all coarser levels, which every rank holds whole, as a space

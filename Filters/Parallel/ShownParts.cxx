@@ -50,13 +50,13 @@ ClippedMesh WithPoints(const ClippedMesh& clipped, const std::vector<Id>& points
 std::vector<PatchLevel> LevelsOfRank(const RankSpace& space)
 {
   const std::vector<PatchLevel>& own = space.Own().Functions().levels;
-  const std::size_t divided = space.Numberings().size();
-  const Id before = space.Ranks().ShareOf(own[divided].NumberOfPatches()).before;
+  const std::size_t distributed = space.Numberings().size();
+  const Id before = space.Ranks().ShareOf(own[distributed].NumberOfPatches()).before;
   std::vector<PatchLevel> levels;
   space.Ranks().Together(
     [&]
     {
-      levels.assign(own.begin(), own.begin() + static_cast<Id>(divided));
+      levels.assign(own.begin(), own.begin() + static_cast<Id>(distributed));
       for (Index& parent : levels.back().parent)
       {
         parent += static_cast<Index>(before);

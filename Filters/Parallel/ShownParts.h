@@ -15,8 +15,8 @@ std::vector<Id> PointsOfPieces(const ClippedMesh& clipped);
 /// Returns the mesh with only these points.
 ClippedMesh WithPoints(const ClippedMesh& clipped, const std::vector<Id>& points);
 
-/// Returns the levels of all ranks' functions on this rank. The divided levels come first, with the
-/// rank's own patches and its own numbers of functions. The shared levels follow as a whole.
+/// Returns the levels of all ranks' functions on this rank. The distributed levels come first, with
+/// the rank's own patches and its own numbers of functions. The shared levels follow as a whole.
 /// Collective.
 std::vector<PatchLevel> LevelsOfRank(const RankSpace& space);
 

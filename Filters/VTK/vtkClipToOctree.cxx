@@ -1,11 +1,11 @@
 #include "vtkClipToOctree.h"
 
-#include "Private/ClippedArrays.h"
-#include "Private/ClippedSurface.h"
-#include "Private/FilterState.h"
-#include "Private/OctreeOutput.h"
+#include "Output/ClippedArrays.h"
+#include "Output/ClippedSurface.h"
+#include "Output/OctreeOutput.h"
+#include "Pipeline/FilterState.h"
 
-#include "Algebra/DividedRows.h"
+#include "Algebra/DistributedRows.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"
@@ -53,7 +53,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   clip.WriteMesh(output);
   progress.Check(0.8);
   auto triangles = static_cast<double>(clip.Clipped().NumberOfTriangles());
-  if (const gridfem::DividedRows* sums = surface.SumsOverProcesses())
+  if (const gridfem::DistributedRows* sums = surface.SumsOverProcesses())
   {
     sums->SumNumbers(&triangles, 1);
   }

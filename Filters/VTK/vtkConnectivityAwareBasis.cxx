@@ -1,8 +1,8 @@
 #include "vtkConnectivityAwareBasis.h"
 
-#include "Private/ClippedArrays.h"
-#include "Private/ClippedSurface.h"
-#include "Private/FilterState.h"
+#include "Output/ClippedArrays.h"
+#include "Output/ClippedSurface.h"
+#include "Pipeline/FilterState.h"
 
 #include "vtkCellData.h"
 #include "vtkInformation.h"

@@ -1,7 +1,7 @@
 #include "vtkFarthestPoints.h"
 
-#include "Private/FilterState.h"
-#include "Private/SolverOutput.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
 
 #include "Solvers/FarthestPointsSolver.h"
 

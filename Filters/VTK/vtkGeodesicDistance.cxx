@@ -1,10 +1,10 @@
 #include "vtkGeodesicDistance.h"
 
-#include "Private/FilterState.h"
-#include "Private/NearestPoints.h"
-#include "Private/SelectedPoints.h"
-#include "Private/SolverOutput.h"
-#include "Private/SurfaceCurves.h"
+#include "Input/NearestPoints.h"
+#include "Input/SelectedPoints.h"
+#include "Input/SurfaceCurves.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DistanceSolver.h"

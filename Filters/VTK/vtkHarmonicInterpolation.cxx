@@ -1,10 +1,10 @@
 #include "vtkHarmonicInterpolation.h"
 
-#include "Private/FilterState.h"
-#include "Private/GivenValues.h"
-#include "Private/InputArray.h"
-#include "Private/SelectedPoints.h"
-#include "Private/SolverOutput.h"
+#include "Input/GivenValues.h"
+#include "Input/InputArray.h"
+#include "Input/SelectedPoints.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
 
 #include "Solvers/InterpolationSolver.h"
 

@@ -1,10 +1,10 @@
 #include "vtkMeanCurvatureFlow.h"
 
-#include "Private/ClippedMeshWriter.h"
-#include "Private/FilterState.h"
-#include "Private/MovedMeshWriter.h"
-#include "Private/PipelineTime.h"
-#include "Private/SolverOutput.h"
+#include "Output/ClippedMeshWriter.h"
+#include "Output/MovedMeshWriter.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/FlowSolver.h"

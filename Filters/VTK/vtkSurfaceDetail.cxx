@@ -1,11 +1,11 @@
 #include "vtkSurfaceDetail.h"
 
-#include "Private/ClippedMeshWriter.h"
-#include "Private/FilterState.h"
-#include "Private/InputArray.h"
-#include "Private/MovedMeshWriter.h"
-#include "Private/SelectedPoints.h"
-#include "Private/SolverOutput.h"
+#include "Input/InputArray.h"
+#include "Input/SelectedPoints.h"
+#include "Output/ClippedMeshWriter.h"
+#include "Output/MovedMeshWriter.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DetailSolver.h"

@@ -1,19 +1,19 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include "Private/BlockTables.h"
-#include "Private/Domain.h"
-#include "Private/FailureDump.h"
-#include "Private/FilterState.h"
-#include "Private/InputArray.h"
-#include "Private/InputBlocks.h"
-#include "Private/InputValidation.h"
-#include "Private/JoinedBlocks.h"
-#include "Private/PipelineTime.h"
-#include "Private/RankedSurface.h"
-#include "Private/Ranks.h"
-#include "Private/ResultNames.h"
-#include "Private/SolverOutput.h"
-#include "Private/SurfaceInput.h"
+#include "Input/Domain.h"
+#include "Input/InputArray.h"
+#include "Input/InputBlocks.h"
+#include "Input/InputValidation.h"
+#include "Input/SurfaceInput.h"
+#include "Output/BlockTables.h"
+#include "Output/ResultNames.h"
+#include "Output/SolverOutput.h"
+#include "Pieces/GatheredRanks.h"
+#include "Pieces/JoinedBlocks.h"
+#include "Pieces/Ranks.h"
+#include "Pipeline/FailureDump.h"
+#include "Pipeline/FilterState.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "Base/LargeMemory.h"
 
@@ -50,7 +50,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
   : State(std::make_unique<gridfem::FilterState>(this)),
     Surface(std::make_unique<gridfem::SurfaceInput>()), Inside(std::make_unique<gridfem::Domain>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
-    Ranked(std::make_unique<gridfem::RankedSurface>()),
+    Ranked(std::make_unique<gridfem::GatheredRanks>()),
     Blocks(std::make_unique<gridfem::InputBlocks>()),
     Joined(std::make_unique<gridfem::JoinedBlocks>()),
     Tables(std::make_unique<gridfem::BlockTables>())

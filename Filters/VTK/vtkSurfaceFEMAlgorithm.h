@@ -81,7 +81,7 @@ class FilterState;
 class InputBlocks;
 class InputTime;
 class JoinedBlocks;
-class RankedSurface;
+class GatheredRanks;
 class SurfaceInput;
 } // namespace gridfem
 
@@ -354,7 +354,7 @@ private:
   std::unique_ptr<gridfem::Domain> Inside;
   std::unique_ptr<gridfem::InputTime> Time;
   std::unique_ptr<gridfem::FailureDump> Dump;
-  std::unique_ptr<gridfem::RankedSurface> Ranked;
+  std::unique_ptr<gridfem::GatheredRanks> Ranked;
   std::unique_ptr<gridfem::InputBlocks> Blocks;
   std::unique_ptr<gridfem::JoinedBlocks> Joined;
   std::unique_ptr<gridfem::BlockTables> Tables;

@@ -1,8 +1,8 @@
 #include "vtkSurfaceGradient.h"
 
-#include "Private/FilterState.h"
-#include "Private/InputArray.h"
-#include "Private/SolverOutput.h"
+#include "Input/InputArray.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
 
 #include "Solvers/GradientSolver.h"
 

@@ -2,10 +2,10 @@
 
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"
+#include "Equations/Poisson.h"
 #include "Measure.h"
 #include "PointAreas.h"
 #include "Problems.h"
-#include "Problems/Poisson.h"
 #include "Spaces/GridSpace.h"
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 // the difference to a grid two levels finer.
 #include "AccuracyPeers.h"
 #include "AlgebraicMultigrid.h"
+#include "Equations/Poisson.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "PointAreas.h"
-#include "Problems/Poisson.h"
 #include "SetupCost.h"
 #include "Spaces/GridSpace.h"
 

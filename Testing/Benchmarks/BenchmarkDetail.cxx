@@ -12,7 +12,7 @@
 
 #include "Base/LargeMemory.h"
 #include "Integrals/LoadVector.h"
-#include "Problems/SurfaceDetail.h"
+#include "Shape/SurfaceDetail.h"
 #include "Spaces/HatSpace.h"
 
 #include <algorithm>

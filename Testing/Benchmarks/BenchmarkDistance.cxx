@@ -12,9 +12,9 @@
 #include "PolyhedralDistances.h"
 #include "SetupCost.h"
 
-#include "Problems/GeodesicDistance.h"
-#include "Problems/PointConstraints.h"
-#include "Problems/Poisson.h"
+#include "Distance/GeodesicDistance.h"
+#include "Equations/PointConstraints.h"
+#include "Equations/Poisson.h"
 #include "Spaces/GridSpace.h"
 
 #include <algorithm>

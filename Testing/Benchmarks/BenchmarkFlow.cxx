@@ -16,7 +16,7 @@
 #include "SurfaceDistance.h"
 
 #include "Base/LargeMemory.h"
-#include "Problems/MeanCurvatureFlow.h"
+#include "Shape/MeanCurvatureFlow.h"
 #include "Spaces/GridSpace.h"
 
 #include <algorithm>

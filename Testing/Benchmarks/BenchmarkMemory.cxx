@@ -2,11 +2,11 @@
 #include "Discretisation.h"
 #include "Measure.h"
 #include "Meshes.h"
-#include "Problems/MemoryEstimate.h"
-#include "Problems/Requirements.h"
-#include "Problems/Spectrum.h"
 #include "SetupCost.h"
+#include "Solvers/MemoryEstimate.h"
+#include "Solvers/Requirements.h"
 #include "Spaces/SpaceChoice.h"
+#include "Spectrum/Spectrum.h"
 
 #include <algorithm>
 #include <cstdio>

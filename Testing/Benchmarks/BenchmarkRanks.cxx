@@ -8,11 +8,11 @@
 // MESH is a file or torus:N. The first rank reads the file and sends each rank its part. Every rank
 // makes its own share of the N x N / 4 quadrilaterals of the torus, so no rank holds the whole.
 #include "Base/Parallel.h"
+#include "Equations/Poisson.h"
 #include "Parallel/RankSurface.h"
 #include "Peers/AlgebraicMultigrid.h"
 #include "Peers/DistributedAmg.h"
-#include "Problems/Poisson.h"
-#include "Problems/Spectrum.h"
+#include "Spectrum/Spectrum.h"
 #include "Support/Meshes.h"
 
 #include <sys/resource.h>
@@ -331,17 +331,17 @@ void PrintMessages(const Communicator& ranks, const std::string& name, int depth
   multigrid.Precondition(b, x);
   double most[] = { traffic.messages, traffic.bytes, traffic.sums, traffic.sumBytes };
   ranks.Maximum(most, 4);
-  std::size_t divided = 0;
-  while (divided < levels.NumberOfLevels() && levels.Divided(divided))
+  std::size_t distributed = 0;
+  while (distributed < levels.NumberOfLevels() && levels.Distributed(distributed))
   {
-    ++divided;
+    ++distributed;
   }
   if (ranks.Rank() == 0)
   {
     const double functions = double(space.Numberings().front().total);
     std::printf("| %s | %s | %d | %.0f | %zu | %.0f | %.0f | %.0f | %.0f | %.0f |\n", name.c_str(),
-      cycle == CycleType::W ? "W" : "V", ranks.Size(), functions, divided, most[0], most[1] / 1e3,
-      most[2], most[3] / 1e3, most[1] / std::sqrt(functions / ranks.Size()));
+      cycle == CycleType::W ? "W" : "V", ranks.Size(), functions, distributed, most[0],
+      most[1] / 1e3, most[2], most[3] / 1e3, most[1] / std::sqrt(functions / ranks.Size()));
   }
 }
 

@@ -7,11 +7,11 @@
 
 #include "Base/LargeMemory.h"
 #include "Base/Parallel.h"
+#include "Distance/GeodesicDistance.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
-#include "Problems/GeodesicDistance.h"
-#include "Problems/Spectrum.h"
 #include "Spaces/GridSpace.h"
+#include "Spectrum/Spectrum.h"
 
 #include <algorithm>
 #include <cstdio>

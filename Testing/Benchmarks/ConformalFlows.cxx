@@ -5,7 +5,7 @@
 #include "Hierarchy.h"
 
 #include "Base/VectorRows.h"
-#include "Problems/MeanCurvatureFlow.h"
+#include "Shape/MeanCurvatureFlow.h"
 
 #include <algorithm>
 #include <stdexcept>

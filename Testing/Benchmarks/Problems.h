@@ -5,7 +5,7 @@
 #define GridFEM_Benchmarks_Problems_h
 
 #include "CotangentSystem.h"
-#include "Problems/Poisson.h"
+#include "Equations/Poisson.h"
 #include "Support/Hybrid.h"
 
 #include <functional>

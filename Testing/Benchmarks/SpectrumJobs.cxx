@@ -6,7 +6,7 @@
 #include "Cholmod.h"
 #include "Integrals/Evaluation.h"
 #include "Measure.h"
-#include "Problems/Spectrum.h"
+#include "Spectrum/Spectrum.h"
 
 #include <functional>
 

@@ -2,13 +2,13 @@
 #include "RandomProblem.h"
 
 #include "Algebra/ComponentMeans.h"
-#include "Problems/EdgeConditions.h"
-#include "Problems/GeodesicDistance.h"
-#include "Problems/HarmonicInterpolation.h"
-#include "Problems/HeatDiffusion.h"
-#include "Problems/NearestSource.h"
-#include "Problems/SpectralDescriptors.h"
-#include "Problems/Spectrum.h"
+#include "Distance/GeodesicDistance.h"
+#include "Distance/NearestSource.h"
+#include "Equations/EdgeConditions.h"
+#include "Equations/HarmonicInterpolation.h"
+#include "Equations/HeatDiffusion.h"
+#include "Spectrum/SpectralDescriptors.h"
+#include "Spectrum/Spectrum.h"
 
 #include <algorithm>
 #include <cmath>

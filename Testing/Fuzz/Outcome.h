@@ -2,8 +2,8 @@
 #ifndef GridFEM_Testing_Outcome_h
 #define GridFEM_Testing_Outcome_h
 
+#include "Equations/SolutionAccuracy.h"
 #include "Krylov/ConjugateGradients.h"
-#include "Problems/SolutionAccuracy.h"
 
 #include <cmath>
 #include <string>

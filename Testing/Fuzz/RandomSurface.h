@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_RandomSurface_h
 #define GridFEM_Testing_RandomSurface_h
 
-#include "Problems/Poisson.h"
+#include "Equations/Poisson.h"
 #include "RandomMesh.h"
 #include "Spaces/HatSpace.h"
 

@@ -1,12 +1,12 @@
 // Random shapes, and fields on them.
 #include "RandomProblem.h"
 
-#include "Problems/HodgeDecomposition.h"
-#include "Problems/MeanCurvatureFlow.h"
-#include "Problems/MovedSurface.h"
-#include "Problems/Stitching.h"
-#include "Problems/SurfaceDerivatives.h"
-#include "Problems/SurfaceDetail.h"
+#include "Shape/HodgeDecomposition.h"
+#include "Shape/MeanCurvatureFlow.h"
+#include "Shape/MovedSurface.h"
+#include "Shape/Stitching.h"
+#include "Shape/SurfaceDerivatives.h"
+#include "Shape/SurfaceDetail.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #ifndef GridFEM_Testing_Pieces_h
 #define GridFEM_Testing_Pieces_h
 
+#include "Equations/Poisson.h"
 #include "Parallel/RankSurface.h"
-#include "Problems/Poisson.h"
-#include "Problems/SurfaceDerivatives.h"
+#include "Shape/SurfaceDerivatives.h"
 #include "Surfaces.h"
 
 #include <memory>

@@ -1,11 +1,11 @@
 // Weighted and unknown values, and terms of the boundary: the pieces of several ranks give the
 // results of one rank.
+#include "Equations/PartialField.h"
+#include "Equations/PointConstraints.h"
+#include "Equations/Poisson.h"
 #include "Parallel/HeldPoints.h"
 #include "Parallel/RankBoundary.h"
 #include "Pieces.h"
-#include "Problems/PartialField.h"
-#include "Problems/PointConstraints.h"
-#include "Problems/Poisson.h"
 #include "Support/Meshes.h"
 
 #include <gtest/gtest.h>
@@ -152,10 +152,10 @@ MultiVector MomentsOf(
 {
   MultiVector place(load.rows(), 4);
   place << own.EmbeddingOfMesh(), MultiVector::Ones(load.rows(), 1);
-  const DividedRows* const divided = space.Divided(0);
-  const Id whole = load.rows() - ForeignRows(divided);
+  const DistributedRows* const distributed = space.Distributed(0);
+  const Id whole = load.rows() - GhostRows(distributed);
   MultiVector moments = place.bottomRows(whole).transpose() * load.bottomRows(whole);
-  SumOverProcesses(divided, moments);
+  SumOverProcesses(distributed, moments);
   return moments;
 }
 

@@ -1,8 +1,8 @@
 // Distances along the pieces of several ranks equal the distances of one rank.
+#include "Distance/StraightDistance.h"
 #include "Largest.h"
 #include "Parallel/RankDistance.h"
 #include "Pieces.h"
-#include "Problems/StraightDistance.h"
 #include "Spaces/GridSpace.h"
 
 #include <gtest/gtest.h>

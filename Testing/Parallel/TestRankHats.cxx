@@ -114,7 +114,7 @@ void CompareProlongations(const RankSurface& surface, const HatSpace& whole)
   MultiVector found;
   Multiply(levels.Prolongation(0),
     NumbersAtCorners(levels.Hats()->Own().Grid().Functions().levels.front()), found, 1);
-  SumProlonged<double>(levels.Divided(0), found);
+  SumProlonged<double>(levels.Distributed(0), found);
   MultiVector expected;
   Multiply(
     whole.Prolongation(0), NumbersAtCorners(whole.Grid().Functions().levels.front()), expected, 1);

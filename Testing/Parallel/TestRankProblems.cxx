@@ -1,10 +1,10 @@
 // Core's problems on the pieces of several ranks have the results of one rank, at every point and
 // on every triangle. Copies of triangles count once, and have the values of their originals.
+#include "Equations/HeatDiffusion.h"
+#include "Equations/PointConstraints.h"
 #include "Parallel/HeldPoints.h"
 #include "Pieces.h"
-#include "Problems/HeatDiffusion.h"
-#include "Problems/PointConstraints.h"
-#include "Problems/SurfaceDerivatives.h"
+#include "Shape/SurfaceDerivatives.h"
 #include "Spaces/GridSpace.h"
 
 #include <gtest/gtest.h>

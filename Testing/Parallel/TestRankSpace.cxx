@@ -3,8 +3,8 @@
 #include "Largest.h"
 #include "Meshes.h"
 #include "Parallel/RankLevels.h"
-#include "Problems/MemoryEstimate.h"
-#include "Problems/Requirements.h"
+#include "Solvers/MemoryEstimate.h"
+#include "Solvers/Requirements.h"
 #include "Surfaces.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ GatheredLevel GatherDivided(const RankSpace& space, std::size_t l)
   level.mass = ranks.Gather(EntriesOf(space, own.Matrix(l, 1.0, 0.0, 1), 0, l, l));
   level.stiffness = ranks.Gather(EntriesOf(space, own.Matrix(l, 0.0, 1.0, 1), 0, l, l));
   level.prolongation =
-    ranks.Gather(EntriesOf(space, own.Prolongation(l), space.Numberings()[l].foreign, l, l + 1));
+    ranks.Gather(EntriesOf(space, own.Prolongation(l), space.Numberings()[l].ghosts, l, l + 1));
   return level;
 }
 
@@ -115,11 +115,11 @@ GatheredLevel TakeShared(const RankSpace& space, std::size_t l)
 
 std::vector<GatheredLevel> GatherLevels(const RankSpace& space)
 {
-  const std::size_t divided = space.Numberings().size();
+  const std::size_t distributed = space.Numberings().size();
   std::vector<GatheredLevel> levels;
-  for (std::size_t l = 0; l < divided + space.Shared().NumberOfLevels(); ++l)
+  for (std::size_t l = 0; l < distributed + space.Shared().NumberOfLevels(); ++l)
   {
-    levels.push_back(l < divided ? GatherDivided(space, l) : TakeShared(space, l));
+    levels.push_back(l < distributed ? GatherDivided(space, l) : TakeShared(space, l));
   }
   return levels;
 }
@@ -240,12 +240,12 @@ template<class Real>
 void ExchangeRows(const RankLevels& levels, const LevelNumbering& numbering, std::size_t level)
 {
   constexpr Id Columns = 40;
-  const DividedRows& rows = *levels.Divided(level);
+  const DistributedRows& rows = *levels.Distributed(level);
   Vectors<Real> parts(numbering.Functions(), Columns);
   Vectors<Real> numbers(numbering.Functions(), Columns);
   for (Index f = 0; f < numbering.Functions(); ++f)
   {
-    const bool isOwn = f >= numbering.foreign;
+    const bool isOwn = f >= numbering.ghosts;
     const auto number = static_cast<Real>(numbering.number[f]); // small enough to keep all digits
     for (Id c = 0; c < Columns; ++c)
     {
@@ -255,7 +255,7 @@ void ExchangeRows(const RankLevels& levels, const LevelNumbering& numbering, std
   }
   const Vectors<Real> own = parts;
   rows.Sum(parts);
-  rows.TakeForeign(numbers);
+  rows.TakeGhosts(numbers);
   for (Index f = 0; f < numbering.Functions(); ++f)
   {
     ASSERT_TRUE(parts.row(f) == Real(numbering.touching[f]) * own.row(f)) << "function " << f;

@@ -3,8 +3,8 @@
 #include "Krylov/SpectralProblem.h"
 #include "Largest.h"
 #include "Pieces.h"
-#include "Problems/Spectrum.h"
 #include "Spaces/GridSpace.h"
+#include "Spectrum/Spectrum.h"
 
 #include <gtest/gtest.h>
 
@@ -169,7 +169,7 @@ TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
     SpectralProblem<double> problem;
     problem.stiffness = levels.Matrix(0, 0.0, 1.0, 1);
     problem.mass = levels.Matrix(0, 1.0, 0.0, 1);
-    problem.divided = levels.Divided(0);
+    problem.distributed = levels.Distributed(0);
     problem.threads = 1;
     MultiVector X = spectrum.vectors;
     problem.Agree(X);

@@ -20,7 +20,12 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up, a folder each. An include goes to its own folder or to a
 # lower one; so the cycle, which sees matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = (
-    "Base", "Algebra", "Multigrid", "Krylov", "Grid", "Integrals", "Spaces", "Problems", "Solvers")
+    "Base", "Algebra", "Multigrid", "Krylov", "Grid", "Integrals", "Spaces",
+    "Equations", "Spectrum", "Distance", "Shape", "Solvers")
+
+# The folders that work in every function space.
+PROBLEMS = ("Filters/Core/Equations", "Filters/Core/Spectrum", "Filters/Core/Distance",
+            "Filters/Core/Shape", "Filters/Core/Krylov", "Filters/VTK")
 
 
 def sources(folder, suffixes=SOURCE_SUFFIXES):
@@ -101,15 +106,14 @@ class Spaces(Rule):
 
     def test_nobody_asks_which_space_there_is(self):
         offences = [f"{relative(p)}: {match.group()}"
-                    for folder in ("Filters/Core/Problems", "Filters/Core/Krylov", "Filters/VTK")
+                    for folder in PROBLEMS
                     for p in sources(folder) if p.stem not in self.MAKERS
                     for match in self.KINDS.finditer(without_comments(p.read_text()))]
         self.assertNothing(offences, "Problems and filters know a FiniteElementSpace alone.")
 
     def test_nobody_asks_which_space_was_chosen(self):
         offences = [relative(p)
-                    for folder in ("Filters/Core/Problems", "Filters/Core/Krylov", "Filters/VTK",
-                                   "Filters/Python")
+                    for folder in PROBLEMS + ("Filters/Python",)
                     for p in sources(folder) if p.stem not in self.KNOW_THE_KIND
                     and self.QUESTION.search(without_comments(p.read_text()))]
         self.assertNothing(offences, "Problems and filters do the same in both function spaces.")

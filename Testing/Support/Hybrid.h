@@ -3,7 +3,7 @@
 #define GridFEM_Testing_Hybrid_h
 
 #include "Discretisation.h"
-#include "Problems/Poisson.h"
+#include "Equations/Poisson.h"
 #include "Spaces/HatSpace.h"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "Dense.h"
 #include "Discretisation.h"
 #include "Largest.h"
-#include "Problems/Spectrum.h"
+#include "Spectrum/Spectrum.h"
 
 #include <gtest/gtest.h>
 

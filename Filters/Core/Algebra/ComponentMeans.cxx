@@ -7,15 +7,15 @@ namespace gridfem
 
 ComponentMeans::ComponentMeans(const std::vector<Index>& component,
   const std::vector<double>& integral, Index numberOfComponents, int threads,
-  const DividedRows* divided)
+  const DistributedRows* distributed)
   : component_(component), integral_(integral), area_(numberOfComponents, 0.0), threads_(threads),
-    divided_(divided)
+    distributed_(distributed)
 {
-  for (std::size_t i = ForeignRows(divided); i < component_.size(); ++i)
+  for (std::size_t i = GhostRows(distributed); i < component_.size(); ++i)
   {
     area_[component_[i]] += integral_[i];
   }
-  SumOverProcesses(divided_, area_);
+  SumOverProcesses(distributed_, area_);
 }
 
 /// Returns Σ weight(i) x_i over every component, divided by the component's area.
@@ -23,14 +23,14 @@ template<class Weight>
 MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight) const
 {
   const MultiVector zero = MultiVector::Zero(static_cast<Id>(area_.size()), x.cols());
-  const Id foreign = ForeignRows(divided_); // rows that other processes count
+  const Id ghosts = GhostRows(distributed_); // rows that other processes count
   const auto sumRange = [&](Id begin, Id end)
   {
     MultiVector sum = zero;
     ForEachChunk(x.cols(),
       [&](auto chunk)
       {
-        for (Index i = static_cast<Index>(foreign + begin); i < foreign + end; ++i)
+        for (Index i = static_cast<Index>(ghosts + begin); i < ghosts + end; ++i)
         {
           chunk.Row(sum.data(), component_[i]) += weight(i) * chunk.Row(x.data(), i);
         }
@@ -41,8 +41,8 @@ MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight)
   // than x.
   const Id range = std::max(DefaultBlockSize, zero.rows());
   MultiVector mean =
-    ParallelSum(x.rows() - foreign, ThreadsFor(x.size(), threads_), zero, sumRange, range);
-  SumOverProcesses(divided_, mean);
+    ParallelSum(x.rows() - ghosts, ThreadsFor(x.size(), threads_), zero, sumRange, range);
+  SumOverProcesses(distributed_, mean);
   for (Id k = 0; k < mean.rows(); ++k)
   {
     if (area_[k] > 0.0)

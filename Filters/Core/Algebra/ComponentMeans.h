@@ -4,7 +4,7 @@
 #define GridFEM_ComponentMeans_h
 
 #include "Algebra/ColumnAlgebra.h"
-#include "Algebra/DividedRows.h"
+#include "Algebra/DistributedRows.h"
 #include "Base/Types.h"
 
 #include <vector>
@@ -14,15 +14,15 @@ namespace gridfem
 
 /// Blocks have one row per function and any number of columns; means have one row per component.
 /// Same bits for any number of threads. Keeps references to the constructor's arguments. Collective
-/// if the rows are divided (see DividedRows); the means cover the whole surface.
+/// if the rows are distributed (see DistributedRows); the means cover the whole surface.
 class ComponentMeans
 {
 public:
   /// @param component  the component of each function, 0 .. numberOfComponents - 1
   /// @param integral   ∫ b_i of each function
-  /// @param divided    null: this process holds all functions
+  /// @param distributed    null: this process holds all functions
   ComponentMeans(const std::vector<Index>& component, const std::vector<double>& integral,
-    Index numberOfComponents, int threads, const DividedRows* divided = nullptr);
+    Index numberOfComponents, int threads, const DistributedRows* distributed = nullptr);
 
   /// Means of a field over the components, computed from its integrals against the functions.
   /// Components without area have mean 0.
@@ -50,7 +50,7 @@ private:
   const std::vector<double>& integral_;
   std::vector<double> area_;
   int threads_;
-  const DividedRows* divided_;
+  const DistributedRows* distributed_;
 };
 
 } // namespace gridfem

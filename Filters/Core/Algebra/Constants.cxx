@@ -51,8 +51,8 @@ std::vector<double> ExtentsOf(const SparseMatrix& mass, const std::vector<double
 } // namespace
 
 Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
-  Index numberOfComponents, int threads, const DividedRows* divided)
-  : component_(std::move(component)), threads_(threads), divided_(divided)
+  Index numberOfComponents, int threads, const DistributedRows* distributed)
+  : component_(std::move(component)), threads_(threads), distributed_(distributed)
 {
   weight_.assign(mass.rows, 0.0);
   mass_.assign(numberOfComponents, 0.0);
@@ -68,13 +68,13 @@ Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
     mass_[component_[i]] += weight_[i];
   }
   const auto components = static_cast<Index>(mass_.size());
-  SumOverProcesses(divided_, mass_);
+  SumOverProcesses(distributed_, mass_);
   const double total = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const auto isLarge = [&](Index c) { return mass_[c] > Rounding * total; };
   std::vector<double> extent; // where one is small
   for (Index c = 0; c < components; ++c)
   {
-    if (!isLarge(c) && mass_[c] > 0.0 && extent.empty() && !divided_)
+    if (!isLarge(c) && mass_[c] > 0.0 && extent.empty() && !distributed_)
     {
       extent = ExtentsOf(mass, weight_, component_, components);
     }
@@ -133,7 +133,7 @@ MultiVector Constants::Means(const ConstBlock<Real>& X) const
       return sum;
     },
     X.rows() / sums + 1);
-  SumOverProcesses(divided_, mean);
+  SumOverProcesses(distributed_, mean);
   for (Id c = 0; c < components; ++c)
   {
     mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;

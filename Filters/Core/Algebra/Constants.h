@@ -3,7 +3,7 @@
 #ifndef GridFEM_Constants_h
 #define GridFEM_Constants_h
 
-#include "Algebra/DividedRows.h"
+#include "Algebra/DistributedRows.h"
 #include "Algebra/SparseMatrix.h"
 
 #include <vector>
@@ -18,10 +18,10 @@ public:
   /// @param mass       this process's part of the mass matrix, if several processes hold the
   ///   functions
   /// @param component  the component of each function, 0 .. numberOfComponents - 1
-  /// @param divided    null: this process holds all functions. Otherwise it must outlive this
+  /// @param distributed    null: this process holds all functions. Otherwise it must outlive this
   ///   object, and the constructor and Remove are collective
   Constants(const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents,
-    int threads, const DividedRows* divided = nullptr);
+    int threads, const DistributedRows* distributed = nullptr);
 
   /// Removes the constants from every column, in the inner product of the mass matrix. Components
   /// without mass become zero, for example pieces without area.
@@ -49,7 +49,7 @@ private:
   std::vector<double> mass_;   // per component; 0 if negligible
   std::vector<Index> massive_; // components with mass
   int threads_;
-  const DividedRows* divided_;
+  const DistributedRows* distributed_;
 };
 
 } // namespace gridfem

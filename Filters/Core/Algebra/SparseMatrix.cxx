@@ -149,7 +149,7 @@ void Residual(
 
 template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
-  Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads)
+  Index ghosts, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads)
 {
   CheckRows(x.rows(), A.columns, "x");
   CheckRows(b.rows(), A.rows, "b");
@@ -162,7 +162,7 @@ void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, cons
       [&](Index row, auto chunk, const auto& product)
       {
         auto to = chunk.Row(r.data(), row);
-        if (row < foreign)
+        if (row < ghosts)
         {
           to = -product;
         }
@@ -182,7 +182,7 @@ void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, cons
     [&](Id begin, Id end) -> Columns
     {
       fill(begin, end);
-      return RowProducts(x, r, begin, end) + RowProducts(x, b, std::max<Id>(begin, foreign), end);
+      return RowProducts(x, r, begin, end) + RowProducts(x, b, std::max<Id>(begin, ghosts), end);
     },
     RowsPerRange);
 }

@@ -67,13 +67,13 @@ void MultiplyAdd(
 void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r,
   int threads = 0);
 
-/// Computes this process's part of the residual. It leaves out b in the rows before `foreign`,
+/// Computes this process's part of the residual. It leaves out b in the rows before `ghosts`,
 /// because these rows belong to other processes.
 /// @param energy  if not null: receives this process's part of xᵀ(b + r) for every column; r must
 ///   not be b then
 template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
-  Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);
+  Index ghosts, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);
 
 /// Returns A times a vector of ones, as one column.
 MultiVector RowSums(const SparseMatrix& A, int threads = 0);

@@ -7,13 +7,13 @@ namespace gridfem
 LinearOperator OperatorOf(const Multigrid& multigrid)
 {
   const SparseMatrix& A = multigrid.Matrix();
-  const DividedRows* const divided = RowsOf(multigrid.Levels().front());
+  const DistributedRows* const distributed = RowsOf(multigrid.Levels().front());
   const int threads = multigrid.Options().threads;
-  const auto sum = [divided](MultiVector& parts)
+  const auto sum = [distributed](MultiVector& parts)
   {
-    if (divided)
+    if (distributed)
     {
-      divided->Sum(parts);
+      distributed->Sum(parts);
     }
   };
   LinearOperator result;
@@ -23,16 +23,16 @@ LinearOperator OperatorOf(const Multigrid& multigrid)
     Multiply(A, x, y, threads);
     sum(y);
   };
-  result.residual = [&A, divided, sum, threads](
+  result.residual = [&A, distributed, sum, threads](
                       const MultiVector& x, const MultiVector& b, MultiVector& r)
   {
-    ResidualPart(A, x, b, ForeignRows(divided), r, nullptr, threads);
+    ResidualPart(A, x, b, GhostRows(distributed), r, nullptr, threads);
     sum(r);
   };
-  result.products = [divided, threads](const MultiVector& x, const MultiVector& y)
+  result.products = [distributed, threads](const MultiVector& x, const MultiVector& y)
   {
-    Columns products = ColumnProducts(x, y, threads, ForeignRows(divided));
-    SumOverProcesses(divided, products);
+    Columns products = ColumnProducts(x, y, threads, GhostRows(distributed));
+    SumOverProcesses(distributed, products);
     return products;
   };
   result.threads = threads;

@@ -17,7 +17,7 @@ constexpr Id RowsOfFacts = 512;
 /// independent. With enough panels each is the job of one thread, otherwise the panels share the
 /// threads. With several processes one thread does all panels, because it sends messages.
 template<class Body>
-void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& body)
+void ForEachPanel(Id columns, const DistributedRows* distributed, int threads, Body&& body)
 {
   const Id panels = (columns + WidestPanel - 1) / WidestPanel;
   const int all = NumberOfThreads(threads);
@@ -26,13 +26,13 @@ void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& bo
     const Id first = panel * WidestPanel;
     body(first, std::min(WidestPanel, columns - first));
   };
-  if (!divided && panels > 1 && panels < all)
+  if (!distributed && panels > 1 && panels < all)
   {
     SideBySide(static_cast<int>(panels), all, [&](int panel) { ofPanel(panel); });
   }
   else
   {
-    ParallelBlocks(panels, divided ? 1 : threads, ofPanel);
+    ParallelBlocks(panels, distributed ? 1 : threads, ofPanel);
   }
 }
 
@@ -48,35 +48,36 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
 
 /// Squared norms as by SquaredNorms, for a residual whose parts the processes add up.
 template<class Real>
-Eigen::VectorXd NormsOfParts(const DividedRows& divided, const RowSource<Real>& part, int threads)
+Eigen::VectorXd NormsOfParts(
+  const DistributedRows& distributed, const RowSource<Real>& part, int threads)
 {
   Vectors<Real> whole(part.rows, part.columns);
   ParallelRanges(
     part.rows, threads,
     [&](Id begin, Id end) { part.fill(begin, end, whole.middleRows(begin, end - begin)); },
     SourceRows);
-  divided.Sum(whole);
-  const Id foreign = divided.Foreign();
-  const RowSource<Real> own{ part.rows - foreign, part.columns,
+  distributed.Sum(whole);
+  const Id ghosts = distributed.Ghosts();
+  const RowSource<Real> own{ part.rows - ghosts, part.columns,
     [&](Id begin, Id end, Block<Real> rows)
-    { rows = whole.middleRows(foreign + begin, end - begin); } };
+    { rows = whole.middleRows(ghosts + begin, end - begin); } };
   Eigen::VectorXd norm = SquaredNorms(own, threads);
-  divided.SumNumbers(norm.data(), norm.size());
+  distributed.SumNumbers(norm.data(), norm.size());
   return norm;
 }
 
 /// Entry of largest magnitude of every column of M X over all processes. Every entry counts once,
 /// in the process that owns its row.
 /// @param image  this process's part of M X
-Eigen::RowVectorXd LargestOfAll(const DividedRows& divided, MultiVector image)
+Eigen::RowVectorXd LargestOfAll(const DistributedRows& distributed, MultiVector image)
 {
-  divided.Sum(image);
+  distributed.Sum(image);
   ColumnFacts own(image.cols());
-  for (Id row = divided.Foreign(); row < image.rows(); ++row)
+  for (Id row = distributed.Ghosts(); row < image.rows(); ++row)
   {
     own.TakeLargest(image.row(row));
   }
-  const MultiVector ofProcesses = divided.Gather(own.largest);
+  const MultiVector ofProcesses = distributed.Gather(own.largest);
   ColumnFacts all(image.cols());
   for (Id process = 0; process < ofProcesses.rows(); ++process)
   {
@@ -100,7 +101,7 @@ Eigen::MatrixXd SpectralProblem<Real>::ProjectBoth(
   const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
 {
   Eigen::MatrixXd projected = ProjectPair<Real>(parts, stiffness, mass, Y, threads);
-  SumOverProcesses(divided, projected);
+  SumOverProcesses(distributed, projected);
   return projected;
 }
 
@@ -109,7 +110,7 @@ Eigen::MatrixXd SpectralProblem<Real>::ProjectMass(
   const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
 {
   Eigen::MatrixXd projected = Project<Real>(parts, mass, Y, threads);
-  SumOverProcesses(divided, projected);
+  SumOverProcesses(distributed, projected);
   return projected;
 }
 
@@ -121,7 +122,7 @@ ResidualMeasures SpectralProblem<Real>::Correct(const BlockPreconditioner<Real>&
   const std::vector<Index>& columns = locking.AtWork();
   const Id residuals = static_cast<Id>(columns.size());
   ResidualMeasures all{ Eigen::VectorXd(residuals), Eigen::VectorXd(residuals) };
-  ForEachPanel(residuals + load.cols(), divided, threads,
+  ForEachPanel(residuals + load.cols(), distributed, threads,
     [&](Id first, Id count)
     {
       const Id firstW = std::min(first, residuals);
@@ -165,14 +166,14 @@ Eigen::VectorXd SpectralProblem<Real>::SquaredResiduals(
   const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const
 {
   Eigen::VectorXd norm(static_cast<Id>(columns.size()));
-  ForEachPanel(norm.size(), divided, threads,
+  ForEachPanel(norm.size(), distributed, threads,
     [&](Id first, Id count)
     {
       const EigenResidual<Real> residual = ResidualOf(*this, pairs, columns, first, count);
       const RowSource<Real> source{ mass.rows, count,
         [&](Id begin, Id end, Block<Real> part) { residual.Rows(begin, end, part); } };
       norm.segment(first, count) =
-        divided ? NormsOfParts(*divided, source, threads) : SquaredNorms(source, threads);
+        distributed ? NormsOfParts(*distributed, source, threads) : SquaredNorms(source, threads);
     });
   return norm;
 }
@@ -206,11 +207,11 @@ ColumnFacts SpectralProblem<Real>::FactsOf(const MultiVector& X) const
     facts.mass += part.mass;
     facts.TakeLargest(part.largest);
   }
-  if (divided)
+  if (distributed)
   {
-    SumOverProcesses(divided, facts.energy);
-    SumOverProcesses(divided, facts.mass);
-    facts.largest = LargestOfAll(*divided, this->MassTimes(X));
+    SumOverProcesses(distributed, facts.energy);
+    SumOverProcesses(distributed, facts.mass);
+    facts.largest = LargestOfAll(*distributed, this->MassTimes(X));
   }
   return facts;
 }
@@ -218,9 +219,9 @@ ColumnFacts SpectralProblem<Real>::FactsOf(const MultiVector& X) const
 template<class Real>
 void SpectralProblem<Real>::Agree(Block<Real> X) const
 {
-  if (divided)
+  if (distributed)
   {
-    divided->TakeForeign(X);
+    distributed->TakeGhosts(X);
   }
 }
 

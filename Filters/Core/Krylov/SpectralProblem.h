@@ -56,7 +56,7 @@ struct SpectralProblem
   /// Rows of the vectors in this process.
   Id Rows() const { return mass.rows; }
 
-  /// M X, in double precision. A divided problem returns the part of this process.
+  /// M X, in double precision. A distributed problem returns the part of this process.
   MultiVector MassTimes(const MultiVector& X) const;
 
   /// [X₁ X₂ ...]ᵀ [L Y, M Y] over all rows.
@@ -89,8 +89,8 @@ struct SpectralProblem
   double shift = 1.0;
   /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
   WithFallback<BlockPreconditioner<Real>> preconditioner;
-  const Constants* constants = nullptr; // the pairs found are orthogonal to them
-  const DividedRows* divided = nullptr; // null: this process holds all rows
+  const Constants* constants = nullptr;         // the pairs found are orthogonal to them
+  const DistributedRows* distributed = nullptr; // null: this process holds all rows
   int threads = 0;
 };
 

@@ -113,7 +113,7 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
     to.prolongation = InSinglePrecision(from.prolongation, threads);
     to.restriction = InSinglePrecision(from.restriction, threads);
     to.smoothing = from.smoothing;
-    to.divided = from.divided;
+    to.distributed = from.distributed;
     to.smoother = this->MakeSmoother(from);
     std::array<double, 2> counts{ double(from.order.dof.Count() + from.groups.dof.Count()),
       double(to.smoother->UnresolvedPatches()) };
@@ -177,9 +177,9 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeSmoother(Multigri
   {
     sequence.push_back(MakePatches<Real>(level.A, level.groups, options_));
   }
-  if (level.divided)
+  if (level.distributed)
   {
-    sequence.push_back(MakeBorderSmoother<Real>(level.divided));
+    sequence.push_back(MakeBorderSmoother<Real>(level.distributed));
   }
   return sequence.size() == 1 ? std::move(sequence.front())
                               : MakeSmootherSequence(std::move(sequence));
@@ -230,9 +230,9 @@ bool BasicMultigrid<Real>::HasSingleFactors() const
                     { return level.smoother && level.smoother->HasSingleFactors(); })
                     ? 1.0
                     : 0.0;
-  if (const DividedRows* divided = RowsOf(levels_.front()))
+  if (const DistributedRows* distributed = RowsOf(levels_.front()))
   {
-    divided->SumNumbers(&single, 1);
+    distributed->SumNumbers(&single, 1);
   }
   return single > 0.0;
 }
@@ -245,7 +245,7 @@ BasicMultigrid<Real> BasicMultigrid<Real>::InDoublePrecision() const
   {
     const MultigridLevel& from = levels_[l];
     levels[l] = { from.A, from.prolongation, from.restriction, from.order, from.groups,
-      from.smoothing, from.divided, nullptr };
+      from.smoothing, from.distributed, nullptr };
   }
   MultigridOptions options = options_;
   options.precision = FactorPrecision::Double;

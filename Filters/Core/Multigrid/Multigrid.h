@@ -5,7 +5,7 @@
 #include "Base/Pool.h"
 #include "Multigrid/BlockPreconditioner.h"
 #include "Multigrid/CoarseSolver.h"
-#include "Multigrid/DividedLevel.h"
+#include "Multigrid/DistributedLevel.h"
 #include "Multigrid/Smoother.h"
 
 #include <functional>
@@ -59,9 +59,9 @@ struct BasicMultigridLevel
   BasicSharedMatrix<Real> restriction;  // transpose of `prolongation`; made if empty
   PatchOrder order;
   PatchOrder groups; // unknowns that are relaxed together after a sweep over all; may be empty
-  std::optional<LevelSmoothing> smoothing;       // replaces the options of the hierarchy
-  std::shared_ptr<const DividedLevel> divided;   // null: this process holds the level alone
-  std::unique_ptr<BasicSmoother<Real>> smoother; // none on the coarsest
+  std::optional<LevelSmoothing> smoothing;             // replaces the options of the hierarchy
+  std::shared_ptr<const DistributedLevel> distributed; // null: this process holds the level alone
+  std::unique_ptr<BasicSmoother<Real>> smoother;       // none on the coarsest
 };
 
 using MultigridLevel = BasicMultigridLevel<double>;
@@ -69,17 +69,17 @@ using MultigridLevel = BasicMultigridLevel<double>;
 /// This process's share of a level that several processes divide; null: this process holds it
 /// alone.
 template<class Real>
-const DividedRows* RowsOf(const BasicMultigridLevel<Real>& level)
+const DistributedRows* RowsOf(const BasicMultigridLevel<Real>& level)
 {
-  return level.divided ? &level.divided->Rows() : nullptr;
+  return level.distributed ? &level.distributed->Rows() : nullptr;
 }
 
 /// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors. Solves need
 /// double. Float suits corrections of many columns that need only a few correct digits; it offers
 /// PreconditionRows alone. Sweeps may be in single precision with both.
 /// Const methods are safe to call from several threads, unless processes divide a level. The
-/// constructor and every method are then collective. Vectors of a divided level have a row for each
-/// unknown that this process holds.
+/// constructor and every method are then collective. Vectors of a distributed level have a row for
+/// each unknown that this process holds.
 template<class Real>
 class BasicMultigrid
 {

@@ -44,7 +44,7 @@ void SetZero(Id rows, Id columns, Vectors<Real>& block, int threads)
 /// Unit of each column: a power of two near its largest number, or near the sum of the largest
 /// numbers of all processes. A column of zeros or without a bound gets 1.
 template<class Real>
-Eigen::ArrayXd UnitsOf(const Vectors<Real>& b, const DividedRows* divided, int threads)
+Eigen::ArrayXd UnitsOf(const Vectors<Real>& b, const DistributedRows* distributed, int threads)
 {
   Eigen::ArrayXd unit = ParallelSum(b.rows(), ThreadsFor(b.size(), threads),
     LargestNumbers{ Eigen::ArrayXd::Zero(b.cols()) },
@@ -53,7 +53,7 @@ Eigen::ArrayXd UnitsOf(const Vectors<Real>& b, const DividedRows* divided, int t
       const auto rows = b.middleRows(begin, end - begin);
       return { rows.cwiseAbs().colwise().maxCoeff().transpose().array().template cast<double>() };
     }).value;
-  SumOverProcesses(divided, unit);
+  SumOverProcesses(distributed, unit);
   for (double& value : unit)
   {
     value = std::isnormal(value) ? std::exp2(std::ilogb(value)) : 1.0;
@@ -197,12 +197,12 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   Vectors<Real>& b = scratch[l].b;
   Vectors<Real>& x = scratch[l].x;
   MakeRoom(r.rows, width, b);
-  const DividedRows* const divided = RowsOf(levels_[l]);
+  const DistributedRows* const distributed = RowsOf(levels_[l]);
   Columns norm;
-  LoadRows(r, b, divided ? nullptr : &norm, threads);
-  if (divided)
+  LoadRows(r, b, distributed ? nullptr : &norm, threads);
+  if (distributed)
   {
-    divided->Sum(b);
+    distributed->Sum(b);
     norm = this->Products(l, b, b);
   }
   const Columns unit = isSingle_[l] ? this->InUnits(l, b, b) : Columns::Ones(width);
@@ -227,9 +227,9 @@ template<class Real>
 Columns BasicMultigrid<Real>::Products(
   std::size_t l, const Vectors<Real>& x, const Vectors<Real>& y) const
 {
-  const DividedRows* const divided = RowsOf(levels_[l]);
-  Columns products = ColumnProducts(x, y, options_.threads, ForeignRows(divided));
-  SumOverProcesses(divided, products);
+  const DistributedRows* const distributed = RowsOf(levels_[l]);
+  Columns products = ColumnProducts(x, y, options_.threads, GhostRows(distributed));
+  SumOverProcesses(distributed, products);
   return products;
 }
 
@@ -263,8 +263,8 @@ template<class Real>
 void BasicMultigrid<Real>::AddProlonged(
   std::size_t l, const Vectors<Real>& coarse, Vectors<Real>& x, Vectors<Real>& scratch) const
 {
-  const DividedRows* const divided = RowsOf(levels_[l]);
-  if (divided && divided->ArePartsProlonged())
+  const DistributedRows* const distributed = RowsOf(levels_[l]);
+  if (distributed && distributed->ArePartsProlonged())
   {
     this->Prolong(l, coarse, scratch);
     x += scratch;
@@ -282,25 +282,25 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   const Vectors<Real>* x, Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy) const
 {
   const BasicMultigridLevel<Real>& level = levels_[l];
-  const DividedRows* const divided = RowsOf(level);
-  const Index foreign = ForeignRows(divided);
-  const bool countOnce = divided && !divided->ArePartsProlonged(); // shared rows count once
+  const DistributedRows* const distributed = RowsOf(level);
+  const Index ghosts = GhostRows(distributed);
+  const bool countOnce = distributed && !distributed->ArePartsProlonged(); // shared rows count once
   if (x)
   {
     MakeRoom(b.rows(), b.cols(), residual);
-    ResidualPart(level.A, *x, b, foreign, residual, energy, options_.threads);
-    SumProlonged<Real>(divided, residual);
+    ResidualPart(level.A, *x, b, ghosts, residual, energy, options_.threads);
+    SumProlonged<Real>(distributed, residual);
   }
   else if (countOnce)
   {
     residual = b;
-    residual.topRows(foreign).setZero();
+    residual.topRows(ghosts).setZero();
   }
   MakeRoom(level.restriction->rows, b.cols(), coarse);
   Multiply(level.restriction, x || countOnce ? residual : b, coarse, options_.threads);
-  if (level.divided)
+  if (level.distributed)
   {
-    level.divided->SumCoarse(coarse);
+    level.distributed->SumCoarse(coarse);
   }
   if (x && energy)
   {
@@ -351,11 +351,12 @@ void BasicMultigrid<Real>::Improve(
   }
   Vectors<Real>& residual = scratch[l].b;
   Vectors<Real>& correction = scratch[l].x;
-  const DividedRows* const divided = RowsOf(levels_[l]);
-  ResidualPart<Real>(levels_[l].A, x, b, ForeignRows(divided), residual, nullptr, options_.threads);
-  if (divided)
+  const DistributedRows* const distributed = RowsOf(levels_[l]);
+  ResidualPart<Real>(
+    levels_[l].A, x, b, GhostRows(distributed), residual, nullptr, options_.threads);
+  if (distributed)
   {
-    divided->Sum(residual);
+    distributed->Sum(residual);
   }
   const Columns unit = this->InUnits(l, residual, residual);
   this->CycleLevel(l, residual, correction, true, scratch);

@@ -1,8 +1,8 @@
 #include "Solvers/ConstrainedEquation.h"
 
 #include "Base/Errors.h"
-#include "Problems/SolveWarnings.h"
 #include "Solvers/OptionFields.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <limits>
@@ -125,21 +125,21 @@ MultiVector ConstrainedEquation::BalancedFlux(const Surface& surface, double wei
   constexpr double Visible = 1e-3;
   const std::shared_ptr<const SurfaceSpace> space = surface.SharedSpace();
   const int threads = surface.Threads();
-  const DividedRows* const divided = space->Divided(0);
+  const DistributedRows* const distributed = space->Distributed(0);
   const Components components = space->ComponentsOf(0, threads);
   const std::vector<char> isHeld = HeldComponents(*weighted_, weight, load_.held.rows, components);
   MultiVector sum = MultiVector::Zero(components.count, load_.flux.cols());
   MultiVector size = sum;
-  for (Id i = ForeignRows(divided); i < load_.flux.rows(); ++i)
+  for (Id i = GhostRows(distributed); i < load_.flux.rows(); ++i)
   {
     const Index own = components.ofFunction[i];
     sum.row(own) += load_.flux.row(i);
     size.row(own) += load_.flux.row(i).cwiseAbs();
   }
-  SumOverProcesses(divided, sum);
-  SumOverProcesses(divided, size);
+  SumOverProcesses(distributed, sum);
+  SumOverProcesses(distributed, size);
   const ComponentMeans means(
-    components.ofFunction, space->Integrals(), components.count, threads, divided);
+    components.ofFunction, space->Integrals(), components.count, threads, distributed);
   MultiVector balanced = load_.flux;
   means.SubtractIntegrals(MeansOfFree(isHeld, means.OfIntegrals(load_.flux)), balanced);
   unbalanced_ = 0;

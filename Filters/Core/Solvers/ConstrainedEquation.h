@@ -3,9 +3,9 @@
 #ifndef GridFEM_ConstrainedEquation_h
 #define GridFEM_ConstrainedEquation_h
 
-#include "Problems/EdgeConditions.h"
-#include "Problems/PartialField.h"
-#include "Problems/PointConstraints.h"
+#include "Equations/EdgeConditions.h"
+#include "Equations/PartialField.h"
+#include "Equations/PointConstraints.h"
 #include "Solvers/PoissonEquation.h"
 
 #include <functional>

@@ -2,8 +2,8 @@
 
 #include "Base/UnsolvedRows.h"
 #include "Base/VectorRows.h"
-#include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #ifndef GridFEM_CurvatureSolver_h
 #define GridFEM_CurvatureSolver_h
 
-#include "Problems/PrincipalCurvatures.h"
+#include "Shape/PrincipalCurvatures.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
 

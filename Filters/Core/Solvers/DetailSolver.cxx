@@ -2,11 +2,11 @@
 
 #include "Base/Errors.h"
 #include "Base/UnsolvedRows.h"
-#include "Problems/MarchedDistance.h"
-#include "Problems/MovedSurface.h"
-#include "Problems/SolveWarnings.h"
+#include "Distance/MarchedDistance.h"
+#include "Shape/MovedSurface.h"
 #include "Solvers/CurvatureSolver.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <cmath>
 #include <utility>

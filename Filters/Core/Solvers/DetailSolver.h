@@ -2,7 +2,7 @@
 #ifndef GridFEM_DetailSolver_h
 #define GridFEM_DetailSolver_h
 
-#include "Problems/SurfaceDetail.h"
+#include "Shape/SurfaceDetail.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/PoissonEquation.h"
 #include "Solvers/SurfaceFields.h"

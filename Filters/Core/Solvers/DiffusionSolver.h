@@ -2,7 +2,7 @@
 #ifndef GridFEM_DiffusionSolver_h
 #define GridFEM_DiffusionSolver_h
 
-#include "Problems/HeatDiffusion.h"
+#include "Equations/HeatDiffusion.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/SurfaceFields.h"
 

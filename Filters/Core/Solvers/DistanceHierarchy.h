@@ -2,7 +2,7 @@
 #ifndef GridFEM_DistanceHierarchy_h
 #define GridFEM_DistanceHierarchy_h
 
-#include "Problems/GeodesicDistance.h"
+#include "Distance/GeodesicDistance.h"
 #include "Solvers/Surface.h"
 
 namespace gridfem

@@ -1,11 +1,11 @@
 #include "Solvers/DistanceSolver.h"
 
-#include "Algebra/DividedRows.h"
+#include "Algebra/DistributedRows.h"
 #include "Base/Errors.h"
-#include "Problems/NearestSource.h"
-#include "Problems/SolveWarnings.h"
+#include "Distance/NearestSource.h"
 #include "Solvers/DistanceHierarchy.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +146,7 @@ double ShareWithout(const Surface& surface, const MultiVector& distance)
       counts[1] += 1.0;
     }
   }
-  if (const DividedRows* sums = surface.SumsOverProcesses())
+  if (const DistributedRows* sums = surface.SumsOverProcesses())
   {
     sums->SumNumbers(counts, 2);
   }

@@ -2,7 +2,7 @@
 #ifndef GridFEM_DistanceSolver_h
 #define GridFEM_DistanceSolver_h
 
-#include "Problems/GeodesicDistance.h"
+#include "Distance/GeodesicDistance.h"
 #include "Solvers/GivenField.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"

@@ -1,10 +1,10 @@
 #include "Solvers/FarthestPointsSolver.h"
 
-#include "Problems/NearestSource.h"
-#include "Problems/SolveWarnings.h"
+#include "Distance/NearestSource.h"
 #include "Solvers/DistanceHierarchy.h"
 #include "Solvers/DistanceSolver.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 #ifndef GridFEM_FarthestPointsSolver_h
 #define GridFEM_FarthestPointsSolver_h
 
-#include "Problems/GeodesicDistance.h"
+#include "Distance/GeodesicDistance.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
 

@@ -1,9 +1,9 @@
 #include "Solvers/FlowSolver.h"
 
 #include "Base/Errors.h"
-#include "Problems/MovedSurface.h"
-#include "Problems/SolveWarnings.h"
+#include "Shape/MovedSurface.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <cmath>

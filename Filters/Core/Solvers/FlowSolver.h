@@ -3,7 +3,7 @@
 #ifndef GridFEM_FlowSolver_h
 #define GridFEM_FlowSolver_h
 
-#include "Problems/MeanCurvatureFlow.h"
+#include "Shape/MeanCurvatureFlow.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
 

@@ -2,8 +2,8 @@
 #ifndef GridFEM_GradientSolver_h
 #define GridFEM_GradientSolver_h
 
-#include "Problems/HodgeDecomposition.h"
-#include "Problems/SurfaceDerivatives.h"
+#include "Shape/HodgeDecomposition.h"
+#include "Shape/SurfaceDerivatives.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/SurfaceFields.h"
 

@@ -1,8 +1,8 @@
 #include "Solvers/InterpolationSolver.h"
 
-#include "Problems/LocalCorrection.h"
-#include "Problems/SolveWarnings.h"
+#include "Equations/LocalCorrection.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 #include "Solvers/SurfaceFields.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef GridFEM_InterpolationSolver_h
 #define GridFEM_InterpolationSolver_h
 
-#include "Problems/HarmonicInterpolation.h"
+#include "Equations/HarmonicInterpolation.h"
 #include "Solvers/GivenField.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"

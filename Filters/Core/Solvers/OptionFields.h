@@ -3,8 +3,8 @@
 #ifndef GridFEM_OptionFields_h
 #define GridFEM_OptionFields_h
 
-#include "Problems/Poisson.h"
-#include "Problems/Requirements.h"
+#include "Equations/Poisson.h"
+#include "Solvers/Requirements.h"
 #include "Solvers/StageKey.h"
 
 #include <limits>

@@ -2,7 +2,7 @@
 #ifndef GridFEM_PoissonEquation_h
 #define GridFEM_PoissonEquation_h
 
-#include "Problems/Poisson.h"
+#include "Equations/Poisson.h"
 #include "Solvers/Surface.h"
 
 #include <functional>

@@ -2,8 +2,8 @@
 #ifndef GridFEM_PoissonSolver_h
 #define GridFEM_PoissonSolver_h
 
-#include "Problems/DepthSearch.h"
 #include "Solvers/ConstrainedEquation.h"
+#include "Solvers/DepthSearch.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/PoissonEquation.h"
 #include "Solvers/SurfaceFields.h"

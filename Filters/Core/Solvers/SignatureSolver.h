@@ -3,9 +3,9 @@
 #ifndef GridFEM_SignatureSolver_h
 #define GridFEM_SignatureSolver_h
 
-#include "Problems/SpectralDescriptors.h"
 #include "Solvers/GivenField.h"
 #include "Solvers/SpectrumSolver.h"
+#include "Spectrum/SpectralDescriptors.h"
 
 #include <limits>
 #include <memory>

@@ -1,8 +1,8 @@
 #include "Solvers/SpectrumSolver.h"
 
-#include "Problems/DepthSearch.h"
-#include "Problems/SolveWarnings.h"
+#include "Solvers/DepthSearch.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <iomanip>

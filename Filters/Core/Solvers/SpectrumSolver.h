@@ -2,9 +2,9 @@
 #ifndef GridFEM_SpectrumSolver_h
 #define GridFEM_SpectrumSolver_h
 
-#include "Problems/Spectrum.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
+#include "Spectrum/Spectrum.h"
 
 #include <functional>
 #include <string>

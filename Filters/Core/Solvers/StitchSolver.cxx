@@ -1,8 +1,8 @@
 #include "Solvers/StitchSolver.h"
 
 #include "Base/Errors.h"
-#include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <cmath>

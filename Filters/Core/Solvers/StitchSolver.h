@@ -2,7 +2,7 @@
 #ifndef GridFEM_StitchSolver_h
 #define GridFEM_StitchSolver_h
 
-#include "Problems/Stitching.h"
+#include "Shape/Stitching.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/SurfaceFields.h"
 

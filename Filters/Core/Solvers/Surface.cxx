@@ -1,8 +1,8 @@
 #include "Solvers/Surface.h"
 
 #include "Base/UnsolvedRows.h"
-#include "Problems/GeodesicDistance.h"
-#include "Problems/MemoryEstimate.h"
+#include "Distance/GeodesicDistance.h"
+#include "Solvers/MemoryEstimate.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #ifndef GridFEM_Surface_h
 #define GridFEM_Surface_h
 
-#include "Problems/EdgeConditions.h"
+#include "Equations/EdgeConditions.h"
 #include "Solvers/Stages.h"
 #include "Solvers/SurfaceOptions.h"
 
@@ -109,7 +109,7 @@ public:
   virtual void Require(const MemoryNeed& own) const;
 
   /// Sums numbers that each process has a part of. Null if this process has all of them.
-  virtual const DividedRows* SumsOverProcesses() const { return nullptr; }
+  virtual const DistributedRows* SumsOverProcesses() const { return nullptr; }
 
   /// The largest number of all processes. NaN if one is NaN.
   virtual double Largest(double own) const { return own; }

@@ -1,7 +1,7 @@
 #include "Solvers/SurfaceBasis.h"
 
 #include "Integrals/QuadratureRule.h"
-#include "Problems/Requirements.h"
+#include "Solvers/Requirements.h"
 
 namespace gridfem
 {

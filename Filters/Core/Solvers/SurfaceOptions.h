@@ -3,7 +3,7 @@
 #ifndef GridFEM_SurfaceOptions_h
 #define GridFEM_SurfaceOptions_h
 
-#include "Problems/Requirements.h"
+#include "Solvers/Requirements.h"
 #include "Spaces/SpaceChoice.h"
 
 namespace gridfem

@@ -23,7 +23,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, doubl
     levels[l].order = std::move(relaxation.order);
     levels[l].groups = std::move(relaxation.groups);
     levels[l].smoothing = relaxation.smoothing;
-    levels[l].divided = space.Divide(l, levels[l].A, options);
+    levels[l].distributed = space.Divide(l, levels[l].A, options);
     if (l + 1 < levels.size())
     {
       levels[l].prolongation = space.Prolongation(l);

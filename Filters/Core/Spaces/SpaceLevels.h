@@ -45,7 +45,7 @@ public:
   /// Number of functions in all processes together.
   virtual Index NumberOfFunctions(std::size_t level) const = 0;
 
-  /// Computes a M + b L, in place if the matrix already has the level's pattern. On a divided
+  /// Computes a M + b L, in place if the matrix already has the level's pattern. On a distributed
   /// level, it computes this process's part.
   virtual void FillMatrix(
     std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const = 0;
@@ -80,9 +80,9 @@ public:
   ///@}
 
   ///@{ Null if this process holds the level alone. Rows are the rows of the space. In Divide, A is
-  /// this process's part of a matrix; the result is the divided level for cycles.
-  virtual const DividedRows* Divided(std::size_t) const { return nullptr; }
-  virtual std::shared_ptr<const DividedLevel> Divide(
+  /// this process's part of a matrix; the result is the distributed level for cycles.
+  virtual const DistributedRows* Distributed(std::size_t) const { return nullptr; }
+  virtual std::shared_ptr<const DistributedLevel> Divide(
     std::size_t, const SparseMatrix& /*A*/, const MultigridOptions&) const
   {
     return nullptr;

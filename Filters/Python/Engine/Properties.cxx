@@ -1,7 +1,7 @@
 #include "Properties.h"
 
 #include "Base/Errors.h"
-#include "Problems/Requirements.h"
+#include "Solvers/Requirements.h"
 
 #include <algorithm>
 #include <cmath>

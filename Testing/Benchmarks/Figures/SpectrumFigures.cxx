@@ -2,9 +2,9 @@
 #include "Figures.h"
 #include "Measure.h"
 #include "Meshes.h"
-#include "Problems/Spectrum.h"
 #include "SetupCost.h"
 #include "ShiftInvert.h"
+#include "Spectrum/Spectrum.h"
 
 #include <algorithm>
 #include <cmath>

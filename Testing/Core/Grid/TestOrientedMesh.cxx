@@ -3,7 +3,7 @@
 #include "Grid/OrientedMesh.h"
 
 #include "Meshes.h"
-#include "Problems/PrincipalCurvatures.h"
+#include "Shape/PrincipalCurvatures.h"
 #include "Support/Largest.h"
 
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include "Discretisation.h"
 #include "Krylov/Lobpcg.h"
 #include "Meshes.h"
-#include "Problems/Spectrum.h"
-#include "Problems/SpectrumCycle.h"
+#include "Spectrum/Spectrum.h"
+#include "Spectrum/SpectrumCycle.h"
 
 #include <gtest/gtest.h>
 

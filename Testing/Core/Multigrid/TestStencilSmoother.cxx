@@ -1,8 +1,8 @@
 // Patches relaxed on stencils of the grid in single precision, compared with double precision.
 #include "Discretisation.h"
+#include "Equations/Poisson.h"
 #include "Meshes.h"
 #include "Multigrid/StencilBlocks.h"
-#include "Problems/Poisson.h"
 #include "SampledHierarchy.h"
 #include "Spaces/PatchOrdering.h"
 

@@ -1,9 +1,9 @@
 // Tests the method as a whole against figures of the thesis and numbers that the project promises.
 #include "Discretisation.h"
+#include "Equations/Poisson.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
-#include "Problems/Poisson.h"
-#include "Problems/Spectrum.h"
+#include "Spectrum/Spectrum.h"
 #include "Support/Meshes.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,122 @@
+#include "Solvers/Requirements.h"
+
+#include "Base/Errors.h"
+#include "Grid/Grid.h"
+#include "Solvers/MemoryEstimate.h"
+#include "Spectrum/Spectrum.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Bytes of everything that a filter makes on the grid.
+double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKind kind)
+{
+  return grid.bytes + (kind == FunctionKind::Hats ? EstimateHatMemory(mesh, grid.functions) : 0.0);
+}
+
+} // namespace
+
+void RequireNumber(const char* property, double value)
+{
+  if (std::isnan(value))
+  {
+    throw InvalidInput(std::string(property) + " is not a number.");
+  }
+}
+
+void RequireAtLeast(const char* property, double value, double least)
+{
+  if (!std::isfinite(value) || value < least)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << least << " or more.";
+    throw InvalidInput(message.str());
+  }
+}
+
+void RequireAtMost(const char* property, double value, double most)
+{
+  if (value > most)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << most << " or less.";
+    throw InvalidInput(message.str());
+  }
+}
+
+bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
+{
+  return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory();
+}
+
+int FittingDepth(const TriangleMesh& mesh, int most, int least, FunctionKind kind)
+{
+  return FinestDepth(most, least, [&](int depth) { return FitsMemory(mesh, depth, kind); });
+}
+
+int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint)
+{
+  const bool isAutomatic = wanted == AutomaticDepth;
+  int depth = isAutomatic ? SuggestedDepth(mesh) : wanted;
+  if (kind == FunctionKind::Hats)
+  {
+    depth = DepthForPoints(mesh, depth, perPoint);
+  }
+  return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, kind) : depth;
+}
+
+void RequireMemory(const MemoryNeed& need, double available, const std::string& where)
+{
+  if (need.bytes > available)
+  {
+    constexpr double GB = 1e9;
+    std::ostringstream message;
+    message << std::setprecision(3) << need.subject << " needs about " << need.bytes / GB
+            << " GB of memory" << where << ", but only " << available / GB << " GB are free. "
+            << need.advice;
+    throw InvalidInput(message.str());
+  }
+}
+
+MemoryNeed NeedOfModes(Id functions, Id modes, int threads)
+{
+  return { EstimateSpectrumMemory(functions, modes, threads),
+    "Number Of Modes " + std::to_string(modes) + " with " + std::to_string(functions) +
+      " basis functions",
+    "Choose fewer modes or a smaller Depth." };
+}
+
+void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
+{
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  std::ostringstream subject;
+  subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
+          << " basis functions)";
+  if (kind == FunctionKind::Hats)
+  {
+    subject << " with the hat functions of " << mesh.points.size() << " points";
+  }
+  RequireMemory({ BytesOf(mesh, estimate, kind), subject.str(), CoarserGrid }, AvailableMemory());
+}
+
+void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
+{
+  RequireMemory({ EstimateHatMemory(mesh, static_cast<double>(functions)),
+                  "Hat functions on " + std::to_string(mesh.points.size()) + " points",
+                  "Set Function Space to Grid, or use a mesh with fewer points." },
+    AvailableMemory());
+}
+
+void RequireMemoryForModes(Id functions, Id modes, int threads)
+{
+  RequireMemory(NeedOfModes(functions, modes, threads), AvailableMemory());
+}
+
+} // namespace gridfem

@@ -1,0 +1,131 @@
+#include "Input/GivenValues.h"
+
+#include "Input/NearestPoints.h"
+#include "Input/SelectedPoints.h"
+
+#include "Base/Errors.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+bool HasNaN(vtkDataArray* array, vtkIdType tuple)
+{
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    if (std::isnan(array->GetComponent(tuple, c)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void CopyFinite(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+{
+  for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
+  {
+    values(row, c) = input.array->GetComponent(tuple, c);
+    if (!std::isfinite(values(row, c)))
+    {
+      throw InvalidInput("Array '" + input.name + "' has a value that is not finite at point " +
+                         std::to_string(tuple) + ".");
+    }
+  }
+}
+
+bool IsChosen(Id point, const InputArray& mask, const SelectedPoints& selection)
+{
+  if (selection.IsGiven() && selection.Points()[point])
+  {
+    return true;
+  }
+  if (!mask.array)
+  {
+    return !selection.IsGiven();
+  }
+  const double value = mask.array->GetComponent(point, 0);
+  return value != 0.0 && !std::isnan(value);
+}
+
+} // namespace
+
+void RequirePointArray(
+  const InputArray& array, const std::string& property, const std::string& advice)
+{
+  if (!array.array)
+  {
+    throw InvalidInput("Choose a " + property + ". " + advice);
+  }
+  if (array.association != FieldAssociation::Points)
+  {
+    throw InvalidInput(property + " '" + array.name +
+                       "' must be a point array. Convert it with Cell Data to Point Data.");
+  }
+}
+
+PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh)
+{
+  if (mask.array &&
+      (mask.association != FieldAssociation::Points || mask.array->GetNumberOfComponents() != 1))
+  {
+    throw InvalidInput("Mask Array '" + mask.name + "' must be a point array with one component.");
+  }
+  const std::vector<char> used = UsedPoints(mesh);
+  PointValues given;
+  for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
+  {
+    if (used[point] && IsChosen(point, mask, selection) && !HasNaN(array.array, point))
+    {
+      given.points.push_back(point);
+    }
+  }
+  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
+  for (Id row = 0; row < given.values.rows(); ++row)
+  {
+    CopyFinite(array, given.points[row], given.values, row);
+  }
+  return given;
+}
+
+void RequireKnown(bool isAnyKnown, const InputArray& array)
+{
+  if (!isAnyKnown)
+  {
+    throw InvalidInput("No value of '" + array.name +
+                       "' is known at a point of a polygon: all are NaN, masked, or not selected.");
+  }
+}
+
+PointValues KnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh)
+{
+  PointValues given = FindKnownValues(array, mask, selection, mesh);
+  RequireKnown(!given.points.empty(), array);
+  return given;
+}
+
+PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places)
+{
+  if (places->GetNumberOfPoints() == 0)
+  {
+    throw InvalidInput("The input Values has no points.");
+  }
+  PointValues given;
+  given.points = NearestPoints(mesh, places, "Values");
+  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
+  for (Id row = 0; row < given.values.rows(); ++row)
+  {
+    CopyFinite(array, row, given.values, row);
+  }
+  return given;
+}
+
+} // namespace gridfem

@@ -1,0 +1,43 @@
+// Finds the known values at some points of a mesh: from an array with a mask or with NaN, or from
+// another data set.
+#ifndef GridFEM_GivenValues_h
+#define GridFEM_GivenValues_h
+
+#include "Input/InputArray.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+
+namespace gridfem
+{
+
+class SelectedPoints;
+
+/// Throws InvalidInput if no array is chosen, or if it is cell data. The advice ends the message
+/// about a missing choice.
+void RequirePointArray(
+  const InputArray& array, const std::string& property, const std::string& advice);
+
+/// Returns the tuples without a NaN, at points that a triangle uses. With a mask or a selection,
+/// the mask must be neither 0 nor NaN at the point, or the point must be selected. Throws
+/// InvalidInput for an infinite value, a mask that does not fit, and if no value is known
+/// (RequireKnown).
+PointValues KnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh);
+
+/// Does the same if no value need be known, as on one of several ranks.
+PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh);
+
+/// Throws InvalidInput if no value is known.
+void RequireKnown(bool isAnyKnown, const InputArray& array);
+
+/// Returns the values of all points of a data set, each at the nearest mesh point that a triangle
+/// uses. Throws InvalidInput if there are none or one is not finite.
+PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
+
+} // namespace gridfem
+
+#endif

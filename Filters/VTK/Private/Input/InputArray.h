@@ -1,0 +1,59 @@
+// Reads arrays chosen by the user as fields that Core integrates.
+#ifndef GridFEM_InputArray_h
+#define GridFEM_InputArray_h
+
+#include "Base/Errors.h"
+#include "Input/InputMesh.h"
+#include "Solvers/GivenField.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkDataSet;
+class vtkDataSetAttributes;
+
+namespace gridfem
+{
+
+/// An array of the input. If there is none, `array` is null.
+struct InputArray
+{
+  vtkDataArray* array = nullptr;
+  FieldAssociation association = FieldAssociation::Points; // Triangles: cell data
+  std::string name;
+};
+
+/// Thrown if the input lacks the chosen array.
+struct MissingArray : InvalidInput
+{
+  MissingArray(const std::string& message, std::string name)
+    : InvalidInput(message), array(std::move(name))
+  {
+  }
+  std::string array;
+};
+
+/// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
+/// chosen. An empty name or "None" chooses none, unless an array has that name. Throws MissingArray
+/// if the chosen array does not exist. Throws InvalidInput if it is not numeric, is neither point
+/// nor cell data, or has the wrong length. `property` is its name in the message.
+InputArray FindInputArray(
+  vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
+
+/// Returns the only array that can be chosen without being named. It is a point or cell array with
+/// a number for each point or cell, and `fits`, called with its attributes, is true. Null array if
+/// there is none or a second one.
+InputArray OnlyArray(
+  vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits);
+
+/// Returns the array's values: rows are points, or triangles for cell data. Values that no polygon
+/// uses are taken as 0. Throws InvalidInput naming the first point or cell of the surface with a
+/// NaN or infinite value.
+Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans = NaNs::Refused);
+
+} // namespace gridfem
+
+#endif

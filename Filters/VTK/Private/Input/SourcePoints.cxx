@@ -1,0 +1,29 @@
+#include "Input/SourcePoints.h"
+
+#include "Input/NearestPoints.h"
+
+#include "Distance/NearestSource.h"
+
+#include "vtkDataSet.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+std::vector<Id> SourcePoints(
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places)
+{
+  RequireUsed("Source Point Ids", ids, mesh);
+  std::vector<Id> sources = ids;
+  if (places && places->GetNumberOfPoints() > 0)
+  {
+    const std::vector<Id> nearest = NearestPoints(mesh, places, "Sources");
+    sources.insert(sources.end(), nearest.begin(), nearest.end());
+  }
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  return sources;
+}
+
+} // namespace gridfem

@@ -1,0 +1,75 @@
+#include "Output/SignatureOutput.h"
+
+#include "Output/SolverOutput.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <sstream>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Adds a point array whose components are named by their scales.
+void AddSignature(vtkPolyData* output, const char* name, const MultiVector& values,
+  const char* symbol, const std::vector<double>& scales, int precision)
+{
+  auto array = MakePointArray(name, values, precision);
+  for (std::size_t j = 0; j < scales.size(); ++j)
+  {
+    std::ostringstream component;
+    component.precision(3);
+    component << symbol << " = " << scales[j];
+    array->SetComponentName(static_cast<vtkIdType>(j), component.str().c_str());
+  }
+  output->GetPointData()->AddArray(array);
+}
+
+void AddNumbers(
+  vtkPolyData* output, const char* name, const std::vector<double>& values, int precision)
+{
+  const Eigen::Map<const Eigen::VectorXd> column(values.data(), values.size());
+  output->GetPointData()->AddArray(MakePointArray(name, column, precision));
+}
+
+} // namespace
+
+void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPolyData* output)
+{
+  AddSignature(
+    output, "WaveKernelSignature", result.waveKernel, "E", result.waveBands.energies, precision);
+  AddSignature(output, "HeatKernelSignature", result.heatKernel, "t", result.heatTimes, precision);
+  const auto middle = static_cast<Id>(result.heatTimes.size() / 2);
+  output->GetPointData()->AddArray(
+    MakePointArray("Signature", result.heatKernel.col(middle), precision));
+  output->GetPointData()->SetActiveScalars("Signature");
+  AddFieldNumbers(output, "HeatTimes", result.heatTimes);
+  AddFieldNumbers(output, "WaveEnergies", result.waveBands.energies);
+}
+
+void WriteModeDistances(const SignatureSolver::Result& result, int precision, vtkPolyData* output)
+{
+  AddNumbers(output, "DiffusionDistance", result.diffusionDistance, precision);
+  AddNumbers(output, "BiharmonicDistance", result.biharmonicDistance, precision);
+  output->GetPointData()->SetActiveScalars("BiharmonicDistance");
+}
+
+void WriteFingerprint(const PointModes& modes, vtkTable* table)
+{
+  std::vector<int> number;
+  std::vector<double> fingerprint;
+  for (const double eigenvalue : modes.eigenvalues)
+  {
+    number.push_back(static_cast<int>(number.size()));
+    fingerprint.push_back(modes.area * eigenvalue);
+  }
+  AddColumn(table, "Mode", number);
+  AddColumn(table, "Eigenvalue", modes.eigenvalues);
+  AddColumn(table, "ShapeDNA", fingerprint);
+}
+
+} // namespace gridfem

@@ -1,0 +1,204 @@
+#include "Output/SolverOutput.h"
+
+#include "Pipeline/Allocation.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridfem
+{
+namespace
+{
+
+template<class Array>
+vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& values)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(values.cols()));
+  SetTuples(array, values.rows());
+  std::transform(values.data(), values.data() + values.size(), array->GetPointer(0),
+    [](double value) { return static_cast<typename Array::ValueType>(value); });
+  return array;
+}
+
+/// Returns the logarithm. An exact zero gives the logarithm of the smallest number instead of minus
+/// infinity.
+double SafeLog10(double value)
+{
+  return std::log10(std::max(value, std::numeric_limits<double>::min()));
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const MultiVector& values, int dataType)
+{
+  return dataType == VTK_FLOAT ? CopyRows<vtkFloatArray>(name, values)
+                               : CopyRows<vtkDoubleArray>(name, values);
+}
+
+vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids)
+{
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName(name);
+  SetTuples(array, static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  return array;
+}
+
+void AddFieldInt(vtkPolyData* output, const char* name, int value)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void AddFieldNumber(vtkPolyData* output, const char* name, double value)
+{
+  AddFieldNumbers(output, name, { value });
+}
+
+void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  SetTuples(array, static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  output->GetFieldData()->AddArray(array);
+}
+
+void KeepUnsolved(vtkDataArray* given, MultiVector& values)
+{
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    for (Id c = 0; c < values.cols(); ++c)
+    {
+      if (std::isnan(values(point, c)))
+      {
+        values(point, c) = given->GetComponent(point, static_cast<int>(c));
+      }
+    }
+  }
+}
+
+namespace
+{
+
+bool AreColors(const MultiVector& values, int dataType)
+{
+  return dataType == VTK_UNSIGNED_CHAR && (values.cols() == 3 || values.cols() == 4);
+}
+
+vtkSmartPointer<vtkDataArray> MakeColors(
+  const char* name, MultiVector values, const InputArray& given)
+{
+  if (given.association == FieldAssociation::Points)
+  {
+    KeepUnsolved(given.array, values);
+  }
+  values = values.array().isNaN().select(0.0, values);
+  return CopyRows<vtkUnsignedCharArray>(name, values.array().round().cwiseMax(0.0).cwiseMin(255.0));
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> MakeSolution(
+  const char* name, const MultiVector& values, const InputArray& given, int dataType)
+{
+  auto array = AreColors(values, dataType) ? MakeColors(name, values, given)
+                                           : MakePointArray(name, values, dataType);
+  array->CopyComponentNames(given.array);
+  return array;
+}
+
+void AddReport(const SolveReport& report, vtkPolyData* output)
+{
+  AddFieldInt(output, "Converged", report.converged ? 1 : 0);
+  AddFieldInt(output, "Iterations", report.iterations);
+  AddFieldInt(output, "DoublePrecisionSince", report.doubleSince);
+  AddFieldNumber(output, "Residual", LastRecord(report).residual);
+  AddFieldNumber(output, "ConvergenceFactor", report.convergenceFactor);
+}
+
+void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output)
+{
+  AddFieldNumber(output, "DiscretizationError", accuracy.discretization);
+  AddFieldNumber(output, "LargestDiscretizationError", accuracy.largest);
+  AddFieldNumber(output, "AlgebraicError", accuracy.algebraic);
+  AddFieldInt(output, "TrustedEstimate", accuracy.isTrusted ? 1 : 0);
+}
+
+void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table)
+{
+  const std::size_t rows = report.history.size();
+  std::vector<double> algebraic;
+  std::vector<double> logAlgebraic;
+  for (const IterationRecord& record : report.history)
+  {
+    algebraic.push_back(std::isnan(accuracy.algebraic) ? accuracy.algebraic : record.own);
+    logAlgebraic.push_back(SafeLog10(algebraic.back()));
+  }
+  const double logDiscretization = SafeLog10(accuracy.discretization);
+  AddColumn(table, "AlgebraicError", algebraic);
+  AddColumn(table, "DiscretizationError", std::vector<double>(rows, accuracy.discretization));
+  AddColumn(table, "Log10AlgebraicError", logAlgebraic);
+  AddColumn(table, "Log10DiscretizationError", std::vector<double>(rows, logDiscretization));
+}
+
+void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name);
+  SetTuples(column, static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddColumn(column);
+}
+
+void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values)
+{
+  vtkNew<vtkIntArray> column;
+  column->SetName(name);
+  SetTuples(column, static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddColumn(column);
+}
+
+void WriteHistory(const SolveReport& report, vtkTable* table)
+{
+  std::vector<int> iteration;
+  std::vector<double> energy;
+  std::vector<double> residual;
+  std::vector<double> logEnergy;
+  std::vector<double> logResidual;
+  std::vector<double> factor;
+  for (const IterationRecord& record : report.history)
+  {
+    iteration.push_back(record.iteration);
+    factor.push_back(energy.empty() || energy.back() == 0.0 ? 1.0 : record.energy / energy.back());
+    energy.push_back(record.energy);
+    residual.push_back(record.residual);
+    logEnergy.push_back(SafeLog10(record.energy));
+    logResidual.push_back(SafeLog10(record.residual));
+  }
+  AddColumn(table, "Iteration", iteration);
+  AddColumn(table, "EnergyResidual", energy);
+  AddColumn(table, "Residual", residual);
+  AddColumn(table, "ConvergenceFactor", factor);
+  AddColumn(table, "Log10EnergyResidual", logEnergy);
+  AddColumn(table, "Log10Residual", logResidual);
+}
+
+} // namespace gridfem

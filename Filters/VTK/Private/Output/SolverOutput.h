@@ -1,0 +1,76 @@
+// Writes solutions and reports of Core as VTK arrays and tables.
+#ifndef GridFEM_SolverOutput_h
+#define GridFEM_SolverOutput_h
+
+#include "Base/Types.h"
+#include "Input/InputArray.h"
+#include "Krylov/ConjugateGradients.h"
+#include "Solvers/SolveWarnings.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class vtkDataArray;
+class vtkPolyData;
+class vtkTable;
+
+namespace gridfem
+{
+
+/// Returns an array with one tuple per row. It is float if `dataType` is VTK_FLOAT, else double.
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const MultiVector& values, int dataType);
+
+/// Returns an array of ids of points.
+vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
+
+/// Returns the array of a solution for a chosen array, with the names of its components. It is of
+/// bytes if the chosen array holds colors, else float if it is, else double. Colors are rounded and
+/// clamped. Where a solution has no color, NaN, it is that of the given point, or black.
+/// @param dataType  the type of the chosen array on all ranks
+vtkSmartPointer<vtkDataArray> MakeSolution(
+  const char* name, const MultiVector& values, const InputArray& given, int dataType);
+
+/// Restores the given values where a solution has none, NaN.
+/// @param given  has as many components as `values` has columns
+void KeepUnsolved(vtkDataArray* given, MultiVector& values);
+
+/// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
+/// -1: none), Residual and ConvergenceFactor (mean per iteration).
+void AddReport(const SolveReport& report, vtkPolyData* output);
+
+/// Adds the field arrays DiscretizationError, LargestDiscretizationError, AlgebraicError and
+/// TrustedEstimate. The second is in units of the solution, the first and the third are relative.
+/// Unknown errors are NaN.
+void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
+
+/// Adds a field array with one int.
+void AddFieldInt(vtkPolyData* output, const char* name, int value);
+
+/// The field array that is 1 if ranks have computed together.
+constexpr const char* DistributedName = "Distributed";
+
+///@{ Adds a field array with one number, or with some.
+void AddFieldNumber(vtkPolyData* output, const char* name, double value);
+void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values);
+///@}
+
+/// Adds the columns Iteration, EnergyResidual, Residual, ConvergenceFactor, Log10EnergyResidual and
+/// Log10Residual. ConvergenceFactor is the energy residual divided by the residual of the row
+/// before; 1 in the first row.
+void WriteHistory(const SolveReport& report, vtkTable* table);
+
+/// Adds the columns AlgebraicError, after the correction of each row, and DiscretizationError, with
+/// their logarithms.
+void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table);
+
+/// Adds a column of numbers to a table.
+void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values);
+
+/// Adds a column of integers to a table.
+void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,44 @@
+#include "Pipeline/FilterState.h"
+
+#include "Pieces/CanDistribute.h"
+#include "Pipeline/WholeSurface.h"
+
+namespace gridfem
+{
+
+FilterState::FilterState(vtkAlgorithm* filter)
+  : bridge(filter), filter_(filter),
+    whole_(std::make_unique<WholeSurface>(stages, filter, options)), used_(whole_.get())
+{
+}
+
+FilterState::~FilterState() = default;
+
+InputSurface& FilterState::Read(vtkPolyData* input, vtkPolyData* basisData)
+{
+  used_->SetInput(input, basisData);
+  return *used_;
+}
+
+void FilterState::RunTogether(const std::function<void()>& body)
+{
+  if (!piece_)
+  {
+    piece_ = MakePieceSurface(stages, filter_, options);
+  }
+  used_ = piece_.get();
+  used_->Run(bridge.GetProgress(),
+    [&](const Progress& ofAll)
+    {
+      progressOfAll_ = ofAll;
+      body();
+    });
+}
+
+void FilterState::Free()
+{
+  used_->Free();
+  stages.Forget();
+}
+
+} // namespace gridfem
