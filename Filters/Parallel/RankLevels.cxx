@@ -282,17 +282,17 @@ std::vector<char> RankLevels::PointsWithFunctions() const
   return has;
 }
 
-std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
+std::shared_ptr<const SurfaceSpace> RankLevels::WithWeightedMass(
   const std::vector<double>& weight, const Job& job) const
 {
-  struct Weighed
+  struct Weighted
   {
     RankSpace space;
     std::optional<RankHats> hats;
     std::unique_ptr<const RankLevels> levels;
   };
   const std::vector<double> received = space_.SendToTriangles(weight);
-  const auto weighed = std::make_shared<Weighed>(Weighed{ space_, {}, nullptr });
+  const auto weighted = std::make_shared<Weighted>(Weighted{ space_, {}, nullptr });
   std::optional<GridSpace> grid;
   space_.Ranks().Together(
     [&]
@@ -302,17 +302,17 @@ std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
         HatSpace own = hats_->Own();
         own.WeighMass(received, job.threads); // including its grid
         grid.emplace(own.Grid());
-        weighed->hats = hats_->WithOwn(std::move(own));
+        weighted->hats = hats_->WithOwn(std::move(own));
         return;
       }
       grid.emplace(space_.Own());
       grid->WeighMass(received, job.threads);
     });
-  weighed->space = space_.WithOwn(std::move(*grid), job.threads);
-  weighed->levels =
-    std::make_unique<const RankLevels>(weighed->space, weighed->hats ? &*weighed->hats : nullptr);
+  weighted->space = space_.WithOwn(std::move(*grid), job.threads);
+  weighted->levels = std::make_unique<const RankLevels>(
+    weighted->space, weighted->hats ? &*weighted->hats : nullptr);
   job.Check(1.0);
-  return { weighed, weighed->levels.get() };
+  return { weighted, weighted->levels.get() };
 }
 
 const DistributedRows* RankLevels::Distributed(std::size_t level) const

@@ -71,7 +71,7 @@ public:
   MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const override;
   std::vector<char> PointsWithFunctions() const override;
-  std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+  std::shared_ptr<const SurfaceSpace> WithWeightedMass(
     const std::vector<double>& weight, const Job& job = {}) const override;
   void SumAtPoints(MultiVector& parts) const override { space_.SumAtPoints(parts); }
   const DistributedRows* Distributed(std::size_t level) const override;

@@ -158,7 +158,7 @@ void vtkSurfaceDetail::WriteFacts(vtkPolyData* output)
   }
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);
-  if (result.isWeighed)
+  if (result.isWeighted)
   {
     gridfem::AddFieldNumber(output, "UsualCurvature", result.usualCurvature);
   }

@@ -228,7 +228,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   }
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::UnknownError);
-  this->Dump->Swallow(this->GetExecutive());
+  this->Dump->Silence(this->GetExecutive());
   return 0;
 }
 

@@ -118,8 +118,8 @@ private:
       ComputeCurvatures(mesh_, around, PointNormals(mesh_, around, Threads), Threads), Threads);
     usual_ = UsualCurvature(mesh_, curvatures);
     onElements_ = space_->MeansOnElements(curvatures.values, Threads);
-    weighed_ = space_->Copy();
-    weighed_->SplitStiffness(curvatures.direction, Threads);
+    weighted_ = space_->Copy();
+    weighted_->SplitStiffness(curvatures.direction, Threads);
     shape_ = ShapeInSpace(*space_, Threads).coefficients;
     this->Weigh(0);
     this->Integrate(0);
@@ -130,16 +130,16 @@ private:
   void Weigh(int frame)
   {
     const double strength = 4.0 + 0.05 * frame;
-    weighed_->Weigh(WeightsOfMetric(onElements_, [&](double curvature)
-                      { return 1.0 + strength * std::min(1.0, std::abs(curvature) / usual_); }),
+    weighted_->Weigh(WeightsOfMetric(onElements_, [&](double curvature)
+                       { return 1.0 + strength * std::min(1.0, std::abs(curvature) / usual_); }),
       Threads);
-    UpdateMultigrid(*weighed_, lambda_, 1.0, *hierarchy_);
+    UpdateMultigrid(*weighted_, lambda_, 1.0, *hierarchy_);
   }
 
   void Integrate(int frame)
   {
     const std::vector<double> scale(onElements_.rows(), 1.0 + 0.02 * frame);
-    load_ = weighed_->StiffnessTimes(shape_, scale, Threads);
+    load_ = weighted_->StiffnessTimes(shape_, scale, Threads);
   }
 
   void Solve()
@@ -151,7 +151,7 @@ private:
     const MultiVector last = std::move(solution_);
     options.start = &last;
     const MultiVector noValues = MultiVector::Zero(load_.rows(), load_.cols());
-    solution_ = SolvePoisson(*weighed_, *hierarchy_, noValues, load_, options).coefficients;
+    solution_ = SolvePoisson(*weighted_, *hierarchy_, noValues, load_, options).coefficients;
     this->Move(1.0);
   }
 
@@ -163,7 +163,7 @@ private:
 
   void Move(double scale)
   {
-    change_ = weighed_->ValuesAtPoints(scale * solution_, Threads);
+    change_ = weighted_->ValuesAtPoints(scale * solution_, Threads);
     positions_.resize(mesh_.points.size());
     for (std::size_t p = 0; p < positions_.size(); ++p)
     {
@@ -193,7 +193,7 @@ private:
   GridSpaceOptions options_;
   MultigridOptions multigridOptions_;
   std::unique_ptr<GridSpace> space_;
-  std::unique_ptr<FiniteElementSpace> weighed_;
+  std::unique_ptr<FiniteElementSpace> weighted_;
   std::unique_ptr<Multigrid> hierarchy_;
   double lambda_ = 1.0;
   double usual_ = 1.0;

@@ -58,8 +58,8 @@ Partial SolvePartial(
   const Field weight = WeightsAt(mesh);
   const PartialField field = SplitField(PartlyKnown(mesh), &weight, mesh);
   const Field known = ScaleOfKnown(field, nullptr, mesh);
-  const std::shared_ptr<const SurfaceSpace> weighed = space.WithWeighedMass(field.weight);
-  const ConstrainedHierarchy hierarchy(*weighed, lambda, 1.0, none.rows, 1e3, Exactly().multigrid);
+  const std::shared_ptr<const SurfaceSpace> weighted = space.WithWeightedMass(field.weight);
+  const ConstrainedHierarchy hierarchy(*weighted, lambda, 1.0, none.rows, 1e3, Exactly().multigrid);
   const MultiVector load = lambda * space.LoadOfWeightedValues(field.values, field.weight) +
                            space.LoadOfGradientsOf(field.values, &known);
   ConstraintOptions constraints;
@@ -68,7 +68,7 @@ Partial SolvePartial(
   SolveOptions solve = Exactly().solve;
   solve.tolerance = 1e-11; // nothing holds the solution: rounding exceeds 1e-12
   partial.solution =
-    SolveConstrained(*weighed, lambda, hierarchy, load, none.values, constraints, solve);
+    SolveConstrained(*weighted, lambda, hierarchy, load, none.values, constraints, solve);
   SetMeans(
     space, partial.solution.isHeld, MeansOfKnown(space, field), partial.solution.coefficients, 1);
   partial.atPoints = space.ValuesAtPoints(partial.solution.coefficients);
@@ -122,8 +122,8 @@ TEST(RankConditions, AWrongWeightOfOneRankFailsOnAll)
   {
     weight.back() = std::nan("");
   }
-  EXPECT_THROW(surface.Levels().WithWeighedMass(weight), RankFailure);
-  EXPECT_THROW(surface.Levels().OfGrid().WithWeighedMass(weight), RankFailure);
+  EXPECT_THROW(surface.Levels().WithWeightedMass(weight), RankFailure);
+  EXPECT_THROW(surface.Levels().OfGrid().WithWeightedMass(weight), RankFailure);
 }
 
 namespace

@@ -139,8 +139,8 @@ TEST_P(ConstrainedPoisson, WeightsOfOneChangeNothing)
   const auto plain = this->Solution();
   AddPointArray(input, "weight", 1, [](const Vec3&, int) { return 1.0; });
   filter->SetInputArrayToProcess(3, 0, 0, Points, "weight");
-  const auto weighed = this->Solution();
-  EXPECT_LT(Difference(weighed, plain), 1e-7);
+  const auto weighted = this->Solution();
+  EXPECT_LT(Difference(weighted, plain), 1e-7);
   // The factor on the weights is the same as on the screening weight.
   AddPointArray(input, "ten", 1, [](const Vec3&, int) { return 10.0; });
   filter->SetScreeningWeight(10.0);

@@ -4,6 +4,7 @@
 #define GridFEM_ColumnAlgebra_h
 
 #include "Algebra/RowKernels.h"
+#include "Base/LargeMemory.h"
 
 namespace gridfem
 {
@@ -39,6 +40,26 @@ Columns ColumnProducts(const Vectors<Real>& x, const Vectors<Real>& y, int threa
   return ParallelSum(x.rows() - first, ThreadsFor(x.size(), threads),
     Columns(Columns::Zero(x.cols())),
     [&](Id begin, Id end) { return RowProducts(x, y, first + begin, first + end); });
+}
+
+/// Resizes a block. New memory prefers large pages.
+template<class Real>
+void MakeRoom(Id rows, Id columns, Vectors<Real>& block)
+{
+  if (block.rows() != rows || block.cols() != columns)
+  {
+    block.resize(rows, columns);
+    PreferLargePages(block.data(), block.size() * sizeof(Real));
+  }
+}
+
+/// Resizes a block and fills it with zeros.
+template<class Real>
+void SetZero(Id rows, Id columns, Vectors<Real>& block, int threads)
+{
+  MakeRoom(rows, columns, block);
+  ParallelRanges(rows, ThreadsFor(block.size(), threads),
+    [&](Id begin, Id end) { block.middleRows(begin, end - begin).setZero(); });
 }
 
 /// Computes y_c += factor_c x_c for every column c.

@@ -1,7 +1,7 @@
 // The communication that an iteration needs if several processes hold the rows of its vectors
 // together. A row held by several processes has the same bits in all of them.
-#ifndef GridFEM_DividedRows_h
-#define GridFEM_DividedRows_h
+#ifndef GridFEM_DistributedRows_h
+#define GridFEM_DistributedRows_h
 
 #include "Algebra/BlockVectors.h"
 

@@ -31,7 +31,7 @@ PartialField SplitField(Field field, const Field* weight, const TriangleMesh& me
 
 /// Leaves out the values at points of weight 0, which may be anything. A triangle with such a
 /// corner gets the weight 0 if each of its other points has a triangle without one. Otherwise the
-/// mean of its weighed corners replaces the value of the others, so that single weighed points
+/// mean of its weighted corners replaces the value of the others, so that single weighted points
 /// count. Does nothing unless values and weights are on points. Collective.
 /// @param weight  as in SplitField
 void LeaveOutWeightless(

@@ -7,7 +7,7 @@ namespace gridfem
 LinearOperator OperatorOf(const Multigrid& multigrid)
 {
   const SparseMatrix& A = multigrid.Matrix();
-  const DistributedRows* const distributed = RowsOf(multigrid.Levels().front());
+  const DistributedRows* const distributed = multigrid.Levels().front().Rows();
   const int threads = multigrid.Options().threads;
   const auto sum = [distributed](MultiVector& parts)
   {

@@ -194,11 +194,11 @@ void SolverIteration::Judge()
     }
   }
   this->Record();
-  this->JudgePace();
+  this->EndIfStagnant();
 }
 
 /// Ends all columns at once. They share their cycles, and the slowest column decides.
-void SolverIteration::JudgePace()
+void SolverIteration::EndIfStagnant()
 {
   if (!this->IsActive())
   {

@@ -55,7 +55,7 @@ private:
   void Precondition(const MultiVector& residual, MultiVector& correction, Columns& energy) const;
   void SetReference(const Columns& workOfStart);
   void Judge();
-  void JudgePace();
+  void EndIfStagnant();
   bool IsSolved(Id column) const;
   void Record();
 

@@ -41,7 +41,7 @@ template void LoadRows(const RowSource<float>&, Vectors<double>&, Columns*, int)
 template void LoadRows(const RowSource<double>&, Vectors<double>&, Columns*, int);
 
 template<class Given, class Real>
-void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads)
+void StoreRows(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads)
 {
   ParallelRanges(
     from.rows(), threads,
@@ -61,10 +61,10 @@ void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, in
     SourceRows);
 }
 
-template void HandOver(const Vectors<float>&, Id, const RowSink<float>&, int);
-template void HandOver(const Vectors<float>&, Id, const RowSink<double>&, int);
-template void HandOver(const Vectors<double>&, Id, const RowSink<float>&, int);
-template void HandOver(const Vectors<double>&, Id, const RowSink<double>&, int);
+template void StoreRows(const Vectors<float>&, Id, const RowSink<float>&, int);
+template void StoreRows(const Vectors<float>&, Id, const RowSink<double>&, int);
+template void StoreRows(const Vectors<double>&, Id, const RowSink<float>&, int);
+template void StoreRows(const Vectors<double>&, Id, const RowSink<double>&, int);
 
 template<class Real>
 Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads)

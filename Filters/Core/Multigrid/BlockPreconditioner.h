@@ -35,7 +35,7 @@ void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int t
 
 /// Hands over the first columns of a block.
 template<class Given, class Real>
-void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads);
+void StoreRows(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads);
 
 /// Σ r² of every column. Same bits for any number of threads.
 template<class Real>

@@ -1,7 +1,7 @@
 // A level whose unknowns are distributed over several processes, from the view of each process's
 // cycle.
-#ifndef GridFEM_DividedLevel_h
-#define GridFEM_DividedLevel_h
+#ifndef GridFEM_DistributedLevel_h
+#define GridFEM_DistributedLevel_h
 
 #include "Algebra/DistributedRows.h"
 #include "Multigrid/Smoother.h"

@@ -88,13 +88,13 @@ BasicMultigrid<Real>::BasicMultigrid(
   }
   else
   {
-    this->TakeApart(std::move(levels));
+    this->ConvertLevels(std::move(levels));
   }
 }
 
 /// Converts the levels to levels in single precision.
 template<class Real>
-void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
+void BasicMultigrid<Real>::ConvertLevels(std::vector<MultigridLevel> levels)
 {
   const int threads = options_.threads;
   double patches = 0.0;
@@ -117,7 +117,7 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
     to.smoother = this->MakeSmoother(from);
     std::array<double, 2> counts{ double(from.order.dof.Count() + from.groups.dof.Count()),
       double(to.smoother->UnresolvedPatches()) };
-    SumOverProcesses(RowsOf(from), counts);
+    SumOverProcesses(from.Rows(), counts);
     patches += counts[0];
     unresolved += counts[1];
   }
@@ -148,19 +148,19 @@ void BasicMultigrid<Real>::BuildSolvers()
     }
   }
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
-  this->FindSingle();
+  this->FindSingleLevels();
 }
 
 /// Finds the levels that sweep in single precision. Collective: if one process has a smoother in
 /// single precision, all processes treat the level so.
 template<class Real>
-void BasicMultigrid<Real>::FindSingle()
+void BasicMultigrid<Real>::FindSingleLevels()
 {
   std::vector<double> single(levels_.size());
   std::transform(levels_.begin(), levels_.end(), single.begin(),
     [](const MultigridLevel& level)
     { return level.smoother && level.smoother->IsSingle() ? 1.0 : 0.0; });
-  SumOverProcesses(RowsOf(levels_.front()), single);
+  SumOverProcesses(levels_.front().Rows(), single);
   isSingle_.assign(levels_.size(), 0);
   for (std::size_t l = levels_.size(); l-- > 0;)
   {
@@ -230,7 +230,7 @@ bool BasicMultigrid<Real>::HasSingleFactors() const
                     { return level.smoother && level.smoother->HasSingleFactors(); })
                     ? 1.0
                     : 0.0;
-  if (const DistributedRows* distributed = RowsOf(levels_.front()))
+  if (const DistributedRows* distributed = levels_.front().Rows())
   {
     distributed->SumNumbers(&single, 1);
   }

@@ -5,29 +5,14 @@
 #include "Base/Pool.h"
 #include "Multigrid/BlockPreconditioner.h"
 #include "Multigrid/CoarseSolver.h"
-#include "Multigrid/DistributedLevel.h"
-#include "Multigrid/Smoother.h"
+#include "Multigrid/MultigridLevel.h"
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace gridfem
 {
-
-enum class CycleType
-{
-  V = 0,
-  W = 1
-};
-
-enum class SmootherType
-{
-  Patch = 0,
-  GaussSeidel = 1,
-  SliceGaussSeidel = 2 // needs slices in the order; see MakeSliceGaussSeidel
-};
 
 struct MultigridOptions
 {
@@ -39,40 +24,6 @@ struct MultigridOptions
   int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
 };
-
-/// How one level is relaxed, if it differs from the rest of the hierarchy. An example is the level
-/// of a mesh's hat functions above the levels of a grid.
-struct LevelSmoothing
-{
-  SmootherType smoother = SmootherType::GaussSeidel;
-  int preSweeps = 2;
-  int postSweeps = 2;
-  CycleType cycle = CycleType::V; // V: the next coarser level is visited once, W: twice
-};
-
-/// The data of one level that the cycle uses.
-template<class Real>
-struct BasicMultigridLevel
-{
-  BasicSparseMatrix<Real> A;
-  BasicSharedMatrix<Real> prolongation; // from the next coarser level; empty on the coarsest
-  BasicSharedMatrix<Real> restriction;  // transpose of `prolongation`; made if empty
-  PatchOrder order;
-  PatchOrder groups; // unknowns that are relaxed together after a sweep over all; may be empty
-  std::optional<LevelSmoothing> smoothing;             // replaces the options of the hierarchy
-  std::shared_ptr<const DistributedLevel> distributed; // null: this process holds the level alone
-  std::unique_ptr<BasicSmoother<Real>> smoother;       // none on the coarsest
-};
-
-using MultigridLevel = BasicMultigridLevel<double>;
-
-/// This process's share of a level that several processes divide; null: this process holds it
-/// alone.
-template<class Real>
-const DistributedRows* RowsOf(const BasicMultigridLevel<Real>& level)
-{
-  return level.distributed ? &level.distributed->Rows() : nullptr;
-}
 
 /// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors. Solves need
 /// double. Float suits corrections of many columns that need only a few correct digits; it offers
@@ -138,9 +89,9 @@ public:
   std::size_t Memory() const;
 
 private:
-  void TakeApart(std::vector<MultigridLevel> levels);
+  void ConvertLevels(std::vector<MultigridLevel> levels);
   void BuildSolvers();
-  void FindSingle();
+  void FindSingleLevels();
   std::unique_ptr<BasicSmoother<Real>> MakeSmoother(MultigridLevel& level) const;
   std::unique_ptr<BasicSmoother<Real>> MakeFirstSmoother(MultigridLevel& level) const;
   LevelSmoothing SmoothingOf(const std::optional<LevelSmoothing>& ofLevel) const
@@ -172,25 +123,16 @@ private:
   void CheckRows(std::size_t level, Id rows) const;
   void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
-  void Prolong(std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& fine) const;
-  void AddProlonged(
-    std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& x, Vectors<Real>& scratch) const;
-  void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
-    Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;
-  Columns InUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& scaled) const;
   void Correct(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
   void Improve(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
   void CycleLevel(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;
-  void Sweep(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, SweepDirection direction,
-    int times) const;
   void Descend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
     std::vector<Scratch>& scratch, Columns* energy = nullptr) const;
   void Ascend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
-  Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
   std::vector<BasicMultigridLevel<Real>> levels_;
   /// Whether vectors of each level are in double precision while this level or a coarser one sweeps

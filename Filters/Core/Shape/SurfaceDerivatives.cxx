@@ -127,8 +127,8 @@ private:
       weight_.push_back(std::max(Smallest, std::pow(Negligible / std::max(lost, Negligible), 4)));
     }
     const SolutionAccuracy accuracy = projection_ ? projection_->accuracy : SolutionAccuracy();
-    weighed_ = space_.WithWeighedMass(weight_, job.Part(0.0, 0.2));
-    projection_ = std::make_unique<L2Projection>(*weighed_, options_, job.Part(0.2, 1.0));
+    weighted_ = space_.WithWeightedMass(weight_, job.Part(0.0, 0.2));
+    projection_ = std::make_unique<L2Projection>(*weighted_, options_, job.Part(0.2, 1.0));
     projection_->accuracy = accuracy;
   }
 
@@ -137,7 +137,7 @@ private:
   const EquationOptions& options_;
   std::vector<double> lost_;   // per triangle
   std::vector<double> weight_; // per triangle
-  std::shared_ptr<const SurfaceSpace> weighed_;
+  std::shared_ptr<const SurfaceSpace> weighted_;
   std::unique_ptr<L2Projection> projection_; // refers to it
 };
 

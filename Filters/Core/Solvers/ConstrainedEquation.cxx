@@ -70,7 +70,7 @@ void ConstrainedEquation::UpdateSystem(
         field.counted ? *field.counted : field.values, field.weight, job.Part(0.0, 0.2));
       meanOfField_ = MeansOfKnown(*space, load_.field, job.Part(0.2, 0.5));
       weighted_ =
-        load_.isWeighed ? space->WithWeighedMass(load_.field.weight, job.Part(0.5, 1.0)) : space;
+        load_.isWeighted ? space->WithWeightedMass(load_.field.weight, job.Part(0.5, 1.0)) : space;
     });
 }
 

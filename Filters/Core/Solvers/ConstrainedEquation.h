@@ -19,11 +19,11 @@ namespace gridfem
 struct ConstrainedLoad
 {
   PartialField field;
-  bool isWeighed = true; // false: all processes know all values, which count 1
-  MultiVector gradients; // may have no rows
-  MultiVector flux;      // boundary integrals; may have no rows
-  HeldValues held;       // values that the solution has exactly
-  std::string warning;   // about the input; may be empty
+  bool isWeighted = true; // false: all processes know all values, which count 1
+  MultiVector gradients;  // may have no rows
+  MultiVector flux;       // boundary integrals; may have no rows
+  HeldValues held;        // values that the solution has exactly
+  std::string warning;    // about the input; may be empty
 };
 
 /// Repeats a stage only when something it depends on has changed. Collective.

@@ -112,8 +112,8 @@ const DetailSolver::Result& DetailSolver::Update(
   surface.Prepare(job.progress.Part(0.0, 0.4));
   job.Check(0.4);
   space_ = surface.WholeSpace();
-  result_.isWeighed = options.transferFunction != CurvatureTransfer::Isotropic;
-  if (result_.isWeighed)
+  result_.isWeighted = options.transferFunction != CurvatureTransfer::Isotropic;
+  if (result_.isWeighted)
   {
     this->UpdateMetric(surface, options, job.Part(0.4, 0.48));
     this->UpdateWeights(surface, input, options, job.Part(0.48, 0.5));
@@ -126,7 +126,7 @@ const DetailSolver::Result& DetailSolver::Update(
 
 const FiniteElementSpace& DetailSolver::MetricSpace() const
 {
-  return result_.isWeighed ? *weighed_ : *space_;
+  return result_.isWeighted ? *weighted_ : *space_;
 }
 
 void DetailSolver::UpdateMetric(const Surface& surface, const Options& options, const Job& job)
@@ -147,8 +147,9 @@ void DetailSolver::UpdateMetric(const Surface& surface, const Options& options, 
         surface.Threads());
       result_.usualCurvature = UsualCurvature(mesh, curvatures_);
       onElements_ = space_->MeansOnElements(curvatures_.values, surface.Threads());
-      weighed_ = space_->Copy();
-      weighed_->SplitStiffness(curvatures_.direction, surface.MakeJob(job.progress.Part(0.6, 1.0)));
+      weighted_ = space_->Copy();
+      weighted_->SplitStiffness(
+        curvatures_.direction, surface.MakeJob(job.progress.Part(0.6, 1.0)));
     });
 }
 
@@ -169,7 +170,7 @@ void DetailSolver::UpdateWeights(
         return isCustom ? 1.0 + (options.anisotropy - 1.0) * input.custom(unit * curvature)
                         : LengthOf(options.transferFunction, unit * curvature, options.anisotropy);
       };
-      weighed_->Weigh(WeightsOfMetric(onElements_, length), surface.MakeJob(job.progress));
+      weighted_->Weigh(WeightsOfMetric(onElements_, length), surface.MakeJob(job.progress));
     });
 }
 
@@ -246,7 +247,7 @@ void DetailSolver::SolveBlocks(
   PoissonRequest request;
   request.weight = options.screeningWeight;
   request.space = &this->MetricSpace();
-  request.numbers.Add(result_.isWeighed ? stages.Version(WeightsStage) : std::int64_t{ -1 });
+  request.numbers.Add(result_.isWeighted ? stages.Version(WeightsStage) : std::int64_t{ -1 });
   request.startsFromLast = true;
   equation_.Update(
     surface, fields,

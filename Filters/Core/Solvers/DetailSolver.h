@@ -63,7 +63,7 @@ public:
     MultiVector change;       // of the values or coordinates at points
     std::vector<Vec3> points; // the moved points; only for the shape
     MultiVector selected;     // per point: 1 in the selection, falling to 0; no rows without one
-    bool isWeighed = false;   // by curvatures
+    bool isWeighted = false;  // by curvatures
     double usualCurvature = 0.0;
     SolveReport report;
     SolutionAccuracy accuracy; // of the change
@@ -101,7 +101,7 @@ private:
   TriangleCurvatures curvatures_;
   MultiVector onElements_; // curvatures
   std::shared_ptr<const FiniteElementSpace> space_;
-  std::unique_ptr<FiniteElementSpace> weighed_;
+  std::unique_ptr<FiniteElementSpace> weighted_;
 
   SignalInSpace signal_;
   std::optional<Field> scale_;

@@ -142,7 +142,7 @@ void AddGradients(const Surface& surface, const Input& input, const Options& opt
 }
 
 /// Throws InvalidInput if a value is NaN where it counts.
-void RequireWeighedValues(
+void RequireWeightedValues(
   const Input& input, const Field& values, const Field& weight, const TriangleMesh& mesh)
 {
   RequireField(values, mesh);
@@ -170,14 +170,14 @@ void RequireWeighedValues(
 }
 
 /// Reads the values. Those of weight 0 may be NaN.
-Field ReadWeighedValues(
+Field ReadWeightedValues(
   const Surface& surface, const Input& input, const Field* weight, const Options& options)
 {
   Field values =
     ReadField(surface, input.values, options.fillUnknown || weight ? NaNs::Kept : NaNs::Refused);
   if (weight && !options.fillUnknown)
   {
-    surface.Together([&] { RequireWeighedValues(input, values, *weight, surface.Mesh()); });
+    surface.Together([&] { RequireWeightedValues(input, values, *weight, surface.Mesh()); });
   }
   return values;
 }
@@ -187,10 +187,10 @@ ConstrainedLoad IntegrateConstrained(const Surface& surface, const Input& input,
   const Options& options, Eigen::RowVectorXd& constants, const Job& job)
 {
   const auto weight = ReadOptional(surface, input.weights);
-  Field values = ReadWeighedValues(surface, input, weight.get(), options);
+  Field values = ReadWeightedValues(surface, input, weight.get(), options);
   constants = TakeConstantsOut(surface, values);
   ConstrainedLoad load;
-  load.isWeighed = weight || options.fillUnknown;
+  load.isWeighted = weight || options.fillUnknown;
   surface.Together([&] { load.field = SplitField(values, weight.get(), surface.Mesh()); });
   if (weight && !(options.useValueGradient && !input.gradients))
   {

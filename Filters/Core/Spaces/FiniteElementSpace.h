@@ -55,12 +55,12 @@ public:
   ///@{ Changes the integrals on the same functions. A copy shares everything that does not change.
   virtual std::unique_ptr<FiniteElementSpace> Copy() const = 0;
 
-  std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+  std::shared_ptr<const SurfaceSpace> WithWeightedMass(
     const std::vector<double>& weight, const Job& job = {}) const override
   {
-    std::shared_ptr<FiniteElementSpace> weighed = this->Copy();
-    weighed->WeighMass(weight, job);
-    return weighed;
+    std::shared_ptr<FiniteElementSpace> weighted = this->Copy();
+    weighted->WeighMass(weight, job);
+    return weighted;
   }
 
   /// Computes all integrals except loads in the metric of an embedding. Loads remain integrals over

@@ -61,7 +61,7 @@ public:
   /// Returns the same functions with the mass ∫ w b_i b_j for a weight w >= 0 on each triangle, and
   /// with Integrals() ∫ w b_i. The stiffness and all loads do not change. Throws InvalidInput
   /// unless there is one finite weight per triangle. [FiniteElementSpace::WeighMass]
-  virtual std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+  virtual std::shared_ptr<const SurfaceSpace> WithWeightedMass(
     const std::vector<double>& weight, const Job& job = {}) const = 0;
 
   /// Adds the contributions of all processes to sums over the triangles around each point of the

@@ -10,7 +10,7 @@ namespace gridfem
 {
 
 /// For numbers that belong to the modes of a coarser level, finds those of the modes of this level.
-/// A mode takes the mean of the coarser numbers, weighed by the fourth powers of the products of
+/// A mode takes the mean of the coarser numbers, weighted by the fourth powers of the products of
 /// the functions. With squares, a small part of a far higher mode would count. The numbers of a
 /// mode are NaN if half of it is in no coarser mode with a number.
 /// @param prolongation  from the coarser level to the level of the problem

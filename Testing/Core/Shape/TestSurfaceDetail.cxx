@@ -36,12 +36,12 @@ struct DetailCase
       CurvaturesOnTriangles(mesh, ComputeCurvatures(mesh, around, PointNormals(mesh, around)));
   }
 
-  std::unique_ptr<FiniteElementSpace> Weighed(const TransferFunction& alpha) const
+  std::unique_ptr<FiniteElementSpace> Weighted(const TransferFunction& alpha) const
   {
-    auto weighed = space->Copy();
-    weighed->SplitStiffness(curvatures.direction);
-    weighed->Weigh(WeightsOfMetric(space->MeansOnElements(curvatures.values), alpha));
-    return weighed;
+    auto weighted = space->Copy();
+    weighted->SplitStiffness(curvatures.direction);
+    weighted->Weigh(WeightsOfMetric(space->MeansOnElements(curvatures.values), alpha));
+    return weighted;
   }
 
   TriangleMesh mesh;
@@ -99,7 +99,7 @@ TEST_P(SurfaceDetail, SolvesTheEquation)
   for (const TriangleMesh& mesh : Meshes())
   {
     const DetailCase on(mesh, GetParam());
-    const auto space = on.Weighed(LengthsOfCurvature);
+    const auto space = on.Weighted(LengthsOfCurvature);
     const MultiVector random = RandomValues(NumberOfElements(on), 1);
     const std::vector<double> scale(random.data(), random.data() + random.size());
     const PoissonSolution change = Solve(*space, scale);
@@ -127,7 +127,7 @@ TEST_P(SurfaceDetail, OfScaleOneIsTheInputForEveryMetric)
     for (const double power : { 0.0, 1.0, -1.0 })
     {
       const auto space =
-        on.Weighed([=](double k) { return std::pow(LengthsOfCurvature(k), power); });
+        on.Weighted([=](double k) { return std::pow(LengthsOfCurvature(k), power); });
       EXPECT_TRUE(Solve(on, *space, 1.0).coefficients.isZero(0.0));
     }
   }
@@ -138,9 +138,9 @@ TEST_P(SurfaceDetail, LowersTheDirichletEnergyBelowOneAndRaisesItAbove)
   for (const TriangleMesh& mesh : Meshes())
   {
     const DetailCase on(mesh, GetParam());
-    for (const bool isWeighed : { false, true })
+    for (const bool isWeighted : { false, true })
     {
-      const auto space = isWeighed ? on.Weighed(LengthsOfCurvature) : on.space->Copy();
+      const auto space = isWeighted ? on.Weighted(LengthsOfCurvature) : on.space->Copy();
       const MultiVector f = ShapeInSpace(*space).coefficients;
       double last = 0.0;
       for (const double scale : { 0.0, 0.5, 1.0, 1.5, 3.0 })
@@ -158,7 +158,7 @@ TEST_P(SurfaceDetail, OfConstantLengthsScalesTheMassOnly)
   const DetailCase on(Torus(40, 16, 1.0, 0.3), GetParam());
   for (const double length : { 1.0, 2.5 })
   {
-    const auto space = on.Weighed([=](double) { return length; });
+    const auto space = on.Weighted([=](double) { return length; });
     const SparseMatrix M = space->Matrix(0, 1.0, 0.0);
     const SparseMatrix L = space->Matrix(0, 0.0, 1.0);
     EXPECT_LE(
@@ -172,12 +172,12 @@ TEST_P(SurfaceDetail, DoesNotSeeDirectionsAtUmbilics)
 {
   DetailCase on(GeodesicSphere(8), GetParam());
   on.curvatures.values.setConstant(1.0);
-  const MultiVector change = Solve(on, *on.Weighed(LengthsOfCurvature), 2.0).coefficients;
+  const MultiVector change = Solve(on, *on.Weighted(LengthsOfCurvature), 2.0).coefficients;
   for (Vec3& direction : on.curvatures.direction)
   {
     direction = Vec3(direction[1] + 0.3, -direction[0], 0.1);
   }
-  const MultiVector other = Solve(on, *on.Weighed(LengthsOfCurvature), 2.0).coefficients;
+  const MultiVector other = Solve(on, *on.Weighted(LengthsOfCurvature), 2.0).coefficients;
   EXPECT_LE(RelativeDifference(other, change), 1e-9);
 }
 

@@ -186,7 +186,7 @@ TEST(PoissonSolver, ValuesOfWeightZeroHaveNoInfluence)
     }
     PoissonSolver::Options options = Exactly();
     options.screeningWeight = 1e4;
-    const auto solveWith = [&](double filler, bool isWeighed)
+    const auto solveWith = [&](double filler, bool isWeighted)
     {
       MultiVector filled = f;
       for (Id k = 0; k < f.rows(); ++k)
@@ -195,12 +195,12 @@ TEST(PoissonSolver, ValuesOfWeightZeroHaveNoInfluence)
       }
       PoissonSolver::Input input;
       input.values = GivenField::Of("f", { FieldAssociation::Points, filled });
-      if (isWeighed)
+      if (isWeighted)
       {
         input.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
       }
       PoissonSolver::Options own = options;
-      own.fillUnknown = !isWeighed;
+      own.fillUnknown = !isWeighted;
       return OnTheSurface(PoissonSolver::Solve(mesh, input, own, AtDepth(5)).atPoints, *mesh);
     };
     const MultiVector zero = solveWith(0.0, true);
@@ -267,15 +267,15 @@ TEST(PoissonSolver, HugeWeightsAreRightOrRefused)
     PoissonSolver::Options options;
     options.screeningWeight = huge;
     EXPECT_LT(Difference(PoissonSolver::Solve(mesh, input, options, hats).atPoints, z), 1e-8);
-    PoissonSolver::Input weighed = input;
+    PoissonSolver::Input weighted = input;
     MultiVector weight = MultiVector::Constant(z.rows(), 1, huge);
-    weighed.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
-    EXPECT_LT(Difference(PoissonSolver::Solve(mesh, weighed, {}, hats).atPoints, z), 1e-8);
+    weighted.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+    EXPECT_LT(Difference(PoissonSolver::Solve(mesh, weighted, {}, hats).atPoints, z), 1e-8);
     for (const double other : { 0.0, 1.0 })
     {
       weight.topRows(z.rows() / 2).setConstant(other);
-      weighed.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
-      EXPECT_THROW(PoissonSolver::Solve(mesh, weighed, {}, hats), InvalidInput);
+      weighted.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+      EXPECT_THROW(PoissonSolver::Solve(mesh, weighted, {}, hats), InvalidInput);
     }
   }
 }

@@ -521,19 +521,19 @@ TEST_P(EverySpace, MultipliesByItsStiffnessInItsOwnMetric)
     const MultiVector expected = Product(DenseOf(space, 0.0, 1.0), u);
     return RelativeDifference(space.StiffnessTimes(u, {}), expected);
   };
-  const auto weighed = on.space->Copy();
+  const auto weighted = on.space->Copy();
   const std::vector<Vec3> along(on.mesh.triangles.size(), Vec3(1, 2, 3));
-  weighed->SplitStiffness(along);
+  weighted->SplitStiffness(along);
   const Id elements =
-    weighed->MeansOnElements(MultiVector::Ones(static_cast<Id>(along.size()), 1)).rows();
+    weighted->MeansOnElements(MultiVector::Ones(static_cast<Id>(along.size()), 1)).rows();
   std::vector<ElementWeights> weights(elements);
   const MultiVector random = RandomValues(elements, 3);
   for (Id e = 0; e < elements; ++e)
   {
     weights[e] = { 1.5 + random(e, 0), { 1.5 + random(e, 1), 1.5 + random(e, 2) } };
   }
-  weighed->Weigh(weights);
-  EXPECT_LE(agrees(*weighed), 1e-13);
+  weighted->Weigh(weights);
+  EXPECT_LE(agrees(*weighted), 1e-13);
   const auto moved = on.space->Copy();
   MultiVector embedding = on.space->EmbeddingOfMesh();
   embedding.col(0) *= 2.0;

@@ -220,12 +220,12 @@ TEST(MetricOnTriangles, IsInAllLoadsAsInTheMatrices)
       ExpectLoadsOfItsMatrices(*own, mesh, coordinates);
 
       const std::vector<double> weight(mesh.triangles.size(), 0.25);
-      const auto weighed = own->Copy();
-      weighed->WeighMass(weight);
-      EXPECT_LT(RelativeDifference(DenseOf(*weighed, 4, 1), DenseOf(*own, 1, 1)), 1e-11);
+      const auto weighted = own->Copy();
+      weighted->WeighMass(weight);
+      EXPECT_LT(RelativeDifference(DenseOf(*weighted, 4, 1), DenseOf(*own, 1, 1)), 1e-11);
       const MultiVector u = RandomValues(own->NumberOfFunctions(0), 1);
       EXPECT_LT(
-        RelativeDifference(weighed->StiffnessTimes(u, {}), own->StiffnessTimes(u, {})), 1e-11);
+        RelativeDifference(weighted->StiffnessTimes(u, {}), own->StiffnessTimes(u, {})), 1e-11);
       own->SetMetric(own->EmbeddingOfMesh()); // ends the metric on triangles
       EXPECT_LT(RelativeDifference(DenseOf(*own, 1, 1), DenseOf(*space, 1, 1)), 1e-10);
       EXPECT_LT(RelativeDifference(own->LoadOfValues(OnPoints(PointCoordinates(mesh))),

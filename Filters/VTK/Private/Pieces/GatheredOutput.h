@@ -1,6 +1,6 @@
 // Hands the outputs that the first rank has computed to all ranks.
-#ifndef GridFEM_RankedOutput_h
-#define GridFEM_RankedOutput_h
+#ifndef GridFEM_GatheredOutput_h
+#define GridFEM_GatheredOutput_h
 
 #include "Pieces/DataMessage.h"
 #include "Pieces/GatheredSurface.h"

@@ -1,7 +1,7 @@
 // Runs a filter on several MPI ranks. Its inputs are gathered on the first rank, which computes,
 // and every rank gets its part of the outputs.
-#ifndef GridFEM_RankedSurface_h
-#define GridFEM_RankedSurface_h
+#ifndef GridFEM_GatheredRanks_h
+#define GridFEM_GatheredRanks_h
 
 #include "Pieces/GatheredSurface.h"
 #include "Pieces/Ranks.h"

@@ -7,7 +7,7 @@
 namespace gridfem
 {
 
-void FailureDump::Swallow(vtkExecutive* executive)
+void FailureDump::Silence(vtkExecutive* executive)
 {
   this->Print();
   // An object whose errors are observed does not print them.

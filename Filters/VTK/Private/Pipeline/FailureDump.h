@@ -9,7 +9,7 @@ class vtkExecutive;
 namespace gridfem
 {
 
-/// Swallows the report that an executive prints if its filter fails. The report prints the failed
+/// Silences the report that an executive prints if its filter fails. The report prints the failed
 /// request: a page of keys beside the one useful message.
 class FailureDump
 {
@@ -19,8 +19,8 @@ public:
   FailureDump(const FailureDump&) = delete;
   FailureDump& operator=(const FailureDump&) = delete;
 
-  /// Swallows the next report of the executive. Observers that others have put on it still get it.
-  void Swallow(vtkExecutive* executive);
+  /// Silences the next report of the executive. Observers that others have put on it still get it.
+  void Silence(vtkExecutive* executive);
 
   /// Prints reports again.
   void Print();

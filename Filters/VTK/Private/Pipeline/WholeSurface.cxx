@@ -114,7 +114,7 @@ void WholeSurface::UpdateFunctions(const SurfaceOptions& asked, const Progress& 
 StageKey WholeSurface::KeyOfFunctions(const SurfaceOptions& asked, std::int64_t meshNumber) const
 {
   StageKey key;
-  key.Add(meshNumber).Add(this->GivesWay());
+  key.Add(meshNumber).Add(this->IsTooFineForHats());
   if (this->AreFunctionsGiven())
   {
     vtkPolyData* const source = CarriesBasis(input_) ? input_ : basisData_;
@@ -147,7 +147,7 @@ void WholeSurface::MakeFunctions(const SurfaceOptions& asked, const Progress& pr
   {
     throw InvalidInput(NoBasisText);
   }
-  this->TakeEnough(asked, progress.Part(0.8, 1.0));
+  this->CoarsenBasis(asked, progress.Part(0.8, 1.0));
   RequireMemory(*triangles_.triangles, basis_.space->GetGrid().depth, asked.choice.kind);
 }
 
@@ -160,7 +160,7 @@ void WholeSurface::BuildFunctions(const SurfaceOptions& asked, const Progress& p
 }
 
 /// Replaces a given basis that is finer than hat functions need by a coarser one.
-void WholeSurface::TakeEnough(const SurfaceOptions& asked, const Progress& progress)
+void WholeSurface::CoarsenBasis(const SurfaceOptions& asked, const Progress& progress)
 {
   wanted_ = basis_.space->GetGrid().depth;
   SpaceOptions enough = asked.space;
@@ -176,7 +176,7 @@ void WholeSurface::TakeEnough(const SurfaceOptions& asked, const Progress& progr
 }
 
 /// Whether the wanted grid is finer than hat functions need.
-bool WholeSurface::GivesWay() const
+bool WholeSurface::IsTooFineForHats() const
 {
   return !IsRefinedByDepth(options_.choice.kind) && triangles_.triangles &&
          DepthForPoints(*triangles_.triangles, wanted_, options_.functionsPerPoint) < wanted_;

@@ -68,9 +68,9 @@ private:
   void Update(const SurfaceOptions& asked, const Progress& progress);
   void UpdateFunctions(const SurfaceOptions& asked, const Progress& progress);
   void MakeFunctions(const SurfaceOptions& asked, const Progress& progress);
-  void TakeEnough(const SurfaceOptions& asked, const Progress& progress);
+  void CoarsenBasis(const SurfaceOptions& asked, const Progress& progress);
   StageKey KeyOfFunctions(const SurfaceOptions& asked, std::int64_t meshNumber) const;
-  bool GivesWay() const;
+  bool IsTooFineForHats() const;
   const InputMesh& CurrentTriangles() const;
 
   MeshVersion meshVersion_; // of the mesh
