@@ -45,7 +45,7 @@ public:
           break;
         }
       }
-      this->AddForeign(patch, partition.OwnerOf(level.cell[patch], level.depth));
+      this->AddGhost(patch, partition.OwnerOf(level.cell[patch], level.depth));
     }
     std::sort(others_.begin(), others_.end());
     others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
@@ -90,7 +90,7 @@ public:
 private:
   static constexpr int NoRank = std::numeric_limits<int>::max();
 
-  void AddForeign(Index patch, int owner)
+  void AddGhost(Index patch, int owner)
   {
     for (const Index function : level_.dof[patch])
     {
@@ -129,6 +129,81 @@ Id NumberOf(const PatchCorner& wanted, const PatchLevel& level, const std::vecto
   return known;
 }
 
+/// The functions of a level that this rank holds, ascending.
+struct HeldFunctions
+{
+  std::vector<Index> own;
+  std::vector<std::vector<Index>> ghosts;        // per owner
+  std::vector<std::vector<PatchCorner>> corners; // of the ghosts
+};
+
+HeldFunctions FunctionsByOwner(
+  const Touching& touching, const PatchLevel& level, const Communicator& ranks)
+{
+  HeldFunctions held;
+  held.ghosts.resize(ranks.Size());
+  held.corners.resize(ranks.Size());
+  for (Index function = 0; function < level.numberOfFunctions; ++function)
+  {
+    if (!touching.IsHere(function))
+    {
+      continue;
+    }
+    const int owner = touching.OwnerOf(function);
+    if (owner == ranks.Rank())
+    {
+      held.own.push_back(function);
+    }
+    else
+    {
+      held.ghosts[owner].push_back(function);
+      held.corners[owner].push_back(touching.Describe(function));
+    }
+  }
+  return held;
+}
+
+/// Collective. Asks the owners of ghosts for their numbers.
+void AskForNumbers(const Communicator& ranks, const PatchLevel& level, const HeldFunctions& held,
+  std::vector<Id>& number)
+{
+  const std::vector<std::vector<PatchCorner>> wanted = ranks.Exchange(held.corners);
+  std::vector<std::vector<Id>> told(ranks.Size());
+  ranks.Together(
+    [&]
+    {
+      for (int rank = 0; rank < ranks.Size(); ++rank)
+      {
+        for (const PatchCorner& corner : wanted[rank])
+        {
+          told[rank].push_back(NumberOf(corner, level, number));
+        }
+      }
+    });
+  told = ranks.Exchange(told);
+  for (int rank = 0; rank < ranks.Size(); ++rank)
+  {
+    for (std::size_t k = 0; k < held.ghosts[rank].size(); ++k)
+    {
+      number[held.ghosts[rank][k]] = told[rank][k];
+    }
+  }
+}
+
+/// All functions that this rank holds. Ghosts have lower numbers and come first.
+std::vector<Index> InOrderOfNumbers(const HeldFunctions& held, const std::vector<Id>& number)
+{
+  std::vector<Index> functions;
+  for (const std::vector<Index>& ofOwner : held.ghosts)
+  {
+    functions.insert(functions.end(), ofOwner.begin(), ofOwner.end());
+  }
+  std::sort(
+    functions.begin(), functions.end(), [&](Index a, Index b) { return number[a] < number[b]; });
+  functions.insert(functions.end(), held.own.begin(), held.own.end());
+  return functions;
+}
+
 } // namespace
 
 Index FirstInCell(const PatchLevel& level, MortonKey cell)
@@ -153,73 +228,33 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
 {
   LevelNumbering numbering;
   std::vector<Id> number;
-  std::vector<Index> own;
-  std::vector<std::vector<Index>> ghosts(ranks.Size());
-  std::vector<std::vector<PatchCorner>> wanted(ranks.Size());
   std::optional<Touching> touching;
+  HeldFunctions held;
   ranks.Together(
     [&]
     {
-      number.assign(level.numberOfFunctions, -1);
       touching.emplace(partition, level, ranks.Rank());
-      for (Index function = 0; function < level.numberOfFunctions; ++function)
-      {
-        if (!touching->IsHere(function))
-        {
-          continue;
-        }
-        const int owner = touching->OwnerOf(function);
-        if (owner == ranks.Rank())
-        {
-          own.push_back(function);
-        }
-        else
-        {
-          ghosts[owner].push_back(function);
-          wanted[owner].push_back(touching->Describe(function));
-        }
-      }
+      held = FunctionsByOwner(*touching, level, ranks);
     });
-  const Communicator::Share share = ranks.ShareOf(static_cast<Id>(own.size()));
+  const Communicator::Share share = ranks.ShareOf(static_cast<Id>(held.own.size()));
   numbering.begin = share.before;
   numbering.total = share.total;
-  for (std::size_t k = 0; k < own.size(); ++k)
-  {
-    number[own[k]] = share.before + static_cast<Id>(k);
-  }
-
-  wanted = ranks.Exchange(wanted);
-  std::vector<std::vector<Id>> told(ranks.Size());
   ranks.Together(
     [&]
     {
       RequireIndices(static_cast<double>(share.total), "functions of all ranks");
-      for (int rank = 0; rank < ranks.Size(); ++rank)
+      number.assign(level.numberOfFunctions, -1);
+      for (std::size_t k = 0; k < held.own.size(); ++k)
       {
-        for (const PatchCorner& corner : wanted[rank])
-        {
-          told[rank].push_back(NumberOf(corner, level, number));
-        }
+        number[held.own[k]] = share.before + static_cast<Id>(k);
       }
     });
-  told = ranks.Exchange(told);
-
+  AskForNumbers(ranks, level, held, number);
   ranks.Together(
     [&]
     {
-      std::vector<Index> functions;
-      for (int rank = 0; rank < ranks.Size(); ++rank)
-      {
-        for (std::size_t k = 0; k < ghosts[rank].size(); ++k)
-        {
-          number[ghosts[rank][k]] = told[rank][k];
-          functions.push_back(ghosts[rank][k]);
-        }
-      }
-      numbering.ghosts = static_cast<Index>(functions.size());
-      std::sort(functions.begin(), functions.end(),
-        [&](Index a, Index b) { return number[a] < number[b]; });
-      functions.insert(functions.end(), own.begin(), own.end());
+      const std::vector<Index> functions = InOrderOfNumbers(held, number);
+      numbering.ghosts = static_cast<Index>(functions.size() - held.own.size());
       place.assign(level.numberOfFunctions, -1);
       for (std::size_t k = 0; k < functions.size(); ++k)
       {

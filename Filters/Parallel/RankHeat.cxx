@@ -3,6 +3,7 @@
 #include "Parallel/MatrixEntries.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -22,14 +23,6 @@ constexpr double AtBorders = 0.1;
 
 /// Largest number of rounds after everything has nearly settled.
 constexpr int MostLastRounds = 30;
-
-/// An entry that a rank's patches add to the row of a shared function.
-struct ToldEntry
-{
-  Index row; // place among the shared functions
-  Id column; // number over all ranks
-  double value;
-};
 
 /// The place of a number in an ascending list; -1 if it is missing.
 Index PlaceOf(Id number, const std::vector<Id>& list)
@@ -67,86 +60,95 @@ RankHeat::RankHeat(const RankLevels& levels, double t, double change, const Job&
 /// shared functions.
 void RankHeat::FindOthers(const SparseMatrix& part)
 {
-  const LevelNumbering& numbering = levels_.Space().Numberings().front();
-  std::vector<std::vector<ToldEntry>> messages(ranks_.Size());
+  EntriesOfRanks messages(ranks_.Size());
   told_.resize(ranks_.Size());
   heard_.resize(ranks_.Size());
   ranks_.Together(
     [&]
     {
-      for (const RankNeighbour& neighbour : numbering.neighbours)
+      for (const RankNeighbour& neighbour : this->Numbering().neighbours)
       {
-        std::vector<char> isShared(functions_, 0);
-        for (const Index function : neighbour.functions)
-        {
-          isShared[function] = 1;
-        }
-        std::vector<Index>& told = told_[neighbour.rank];
-        for (std::size_t k = 0; k < neighbour.functions.size(); ++k)
-        {
-          const Index row = neighbour.functions[k];
-          for (Id e = part.rowBegin[row]; e < part.rowBegin[row + 1]; ++e)
-          {
-            const Index column = part.column[e];
-            messages[neighbour.rank].push_back(
-              { static_cast<Index>(k), numbering.number[column], part.value[e] });
-            if (!isShared[column])
-            {
-              isShared[column] = 1;
-              told.push_back(column);
-            }
-          }
-        }
-        std::sort(told.begin(), told.end()); // numbers ascend with places
+        messages[neighbour.rank] = this->EntriesFor(neighbour, part);
       }
     });
   messages = ranks_.Exchange(messages);
-  ranks_.Together(
-    [&]
+  ranks_.Together([&] { this->AddOthers(part, messages); });
+}
+
+/// The entries of rows that a neighbor shares. Notes the columns that the neighbor does not share.
+std::vector<RankHeat::ToldEntry> RankHeat::EntriesFor(
+  const RankNeighbour& neighbour, const SparseMatrix& part)
+{
+  std::vector<char> isShared(functions_, 0);
+  for (const Index function : neighbour.functions)
+  {
+    isShared[function] = 1;
+  }
+  std::vector<ToldEntry> entries;
+  std::vector<Index>& told = told_[neighbour.rank];
+  for (std::size_t k = 0; k < neighbour.functions.size(); ++k)
+  {
+    const Index row = neighbour.functions[k];
+    for (Id e = part.rowBegin[row]; e < part.rowBegin[row + 1]; ++e)
     {
-      std::vector<std::vector<Id>> unknown(ranks_.Size()); // from each rank, unknown here
-      std::vector<Id> numbers;
-      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      const Index column = part.column[e];
+      entries.push_back({ static_cast<Index>(k), this->Numbering().number[column], part.value[e] });
+      if (!isShared[column])
       {
-        for (const ToldEntry& entry : messages[rank])
-        {
-          if (PlaceOf(entry.column, numbering.number) < 0)
-          {
-            unknown[rank].push_back(entry.column);
-          }
-        }
-        SortEachOnce(unknown[rank]);
-        numbers.insert(numbers.end(), unknown[rank].begin(), unknown[rank].end());
+        isShared[column] = 1;
+        told.push_back(column);
       }
-      SortEachOnce(numbers);
-      const auto placeOf = [&](Id number)
+    }
+  }
+  std::sort(told.begin(), told.end()); // numbers ascend with places
+  return entries;
+}
+
+/// Gives functions that only other ranks hold a place behind the functions here, and adds the
+/// entries of all ranks to this rank's part of the matrix.
+void RankHeat::AddOthers(const SparseMatrix& part, const EntriesOfRanks& messages)
+{
+  const LevelNumbering& numbering = this->Numbering();
+  std::vector<std::vector<Id>> unknown(ranks_.Size()); // from each rank, unknown here
+  std::vector<Id> numbers;
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (const ToldEntry& entry : messages[rank])
+    {
+      if (PlaceOf(entry.column, numbering.number) < 0)
       {
-        const Index here = PlaceOf(number, numbering.number);
-        return here >= 0 ? here : functions_ + PlaceOf(number, numbers);
-      };
-      for (int rank = 0; rank < ranks_.Size(); ++rank)
-      {
-        for (const Id number : unknown[rank])
-        {
-          heard_[rank].push_back(placeOf(number));
-        }
+        unknown[rank].push_back(entry.column);
       }
-      std::vector<MatrixEntry> others;
-      for (const RankNeighbour& neighbour : numbering.neighbours)
+    }
+    SortEachOnce(unknown[rank]);
+    numbers.insert(numbers.end(), unknown[rank].begin(), unknown[rank].end());
+  }
+  SortEachOnce(numbers);
+  const auto placeOf = [&](Id number)
+  {
+    const Index here = PlaceOf(number, numbering.number);
+    return here >= 0 ? here : functions_ + PlaceOf(number, numbers);
+  };
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    std::transform(
+      unknown[rank].begin(), unknown[rank].end(), std::back_inserter(heard_[rank]), placeOf);
+  }
+  std::vector<MatrixEntry> others;
+  for (const RankNeighbour& neighbour : numbering.neighbours)
+  {
+    for (const ToldEntry& entry : messages[neighbour.rank])
+    {
+      const Index row = neighbour.functions[entry.row];
+      const Index column = placeOf(entry.column);
+      others.push_back({ row, column, entry.value });
+      if (column >= functions_) // so that heat can come from there
       {
-        for (const ToldEntry& entry : messages[neighbour.rank])
-        {
-          const Index row = neighbour.functions[entry.row];
-          const Index column = placeOf(entry.column);
-          others.push_back({ row, column, entry.value });
-          if (column >= functions_) // so that heat can come from there
-          {
-            others.push_back({ column, row, entry.value });
-          }
-        }
+        others.push_back({ column, row, entry.value });
       }
-      whole_ = SumOf(part, std::move(others), functions_ + static_cast<Index>(numbers.size()));
-    });
+    }
+  }
+  whole_ = SumOf(part, std::move(others), functions_ + static_cast<Index>(numbers.size()));
 }
 
 /// Collective. Replaces values that belong to other ranks by the owners' values.

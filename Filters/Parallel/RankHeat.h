@@ -32,7 +32,19 @@ public:
   HeatField From(const MultiVector& load, const Job& job = {}) const;
 
 private:
+  /// An entry that a rank's patches add to the row of a shared function.
+  struct ToldEntry
+  {
+    Index row; // place among the shared functions
+    Id column; // number over all ranks
+    double value;
+  };
+  using EntriesOfRanks = std::vector<std::vector<ToldEntry>>;
+
+  const LevelNumbering& Numbering() const { return levels_.Space().Numberings().front(); }
   void FindOthers(const SparseMatrix& part);
+  std::vector<ToldEntry> EntriesFor(const RankNeighbour& neighbour, const SparseMatrix& part);
+  void AddOthers(const SparseMatrix& part, const EntriesOfRanks& messages);
   void TakeOthers(MultiVector& u) const;
   Id CountUnreached(const MultiVector& heat) const;
   double Sum(double own) const;

@@ -9,8 +9,6 @@ namespace gridfem
 namespace
 {
 
-using Point = std::array<double, 3>;
-
 bool IsBefore(const Vec3& a, const Vec3& b)
 {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
@@ -113,69 +111,74 @@ void Redistribution::Route(const TriangleMesh& own, const Grid& grid,
 
 void Redistribution::Receive(const TriangleMesh& own, const Grid& grid)
 {
-  using Corners = std::array<Index, 3>; // places among the points sent to the same rank
   std::vector<std::vector<Point>> points(ranks_.Size());
   std::vector<std::vector<Corners>> corners(ranks_.Size());
-  ranks_.Together(
-    [&]
-    {
-      std::vector<Index> place(own.points.size());
-      for (int rank = 0; rank < ranks_.Size(); ++rank)
-      {
-        for (const Index point : sentPoints_[rank])
-        {
-          place[point] = static_cast<Index>(points[rank].size());
-          const Vec3& x = own.points[point];
-          // Removes the sign of zeros, so that coincident points are equal.
-          points[rank].push_back({ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 });
-        }
-        for (const Index t : sentTriangles_[rank])
-        {
-          const auto& corner = own.triangles[t];
-          corners[rank].push_back({ place[corner[0]], place[corner[1]], place[corner[2]] });
-        }
-      }
-    });
+  ranks_.Together([&] { this->FillMessages(own, points, corners); });
   points = ranks_.Exchange(points);
   corners = ranks_.Exchange(corners);
   receivedPoints_ = SizesOf(points);
   receivedTriangles_ = SizesOf(corners);
-  ranks_.Together(
-    [&]
+  ranks_.Together([&] { this->BuildMesh(std::move(points), std::move(corners), grid); });
+}
+
+/// The points and triangles for every rank.
+void Redistribution::FillMessages(const TriangleMesh& own, std::vector<std::vector<Point>>& points,
+  std::vector<std::vector<Corners>>& corners) const
+{
+  std::vector<Index> place(own.points.size());
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (const Index point : sentPoints_[rank])
     {
-      std::vector<Vec3> received;
-      std::vector<std::array<Id, 3>> triangles;
-      for (int rank = 0; rank < ranks_.Size(); ++rank)
-      {
-        const auto first = static_cast<Id>(received.size());
-        for (const Point& point : points[rank])
-        {
-          received.emplace_back(point[0], point[1], point[2]);
-        }
-        for (const Corners& corner : corners[rank])
-        {
-          triangles.push_back({ first + corner[0], first + corner[1], first + corner[2] });
-        }
-        points[rank] = {};
-        corners[rank] = {};
-      }
-      RequireIndices(static_cast<double>(received.size()), "points");
-      const std::vector<Index> order = OrderInSpace(received, grid);
-      pointPlace_.resize(received.size());
-      mesh_.points.resize(received.size());
-      for (std::size_t k = 0; k < order.size(); ++k)
-      {
-        pointPlace_[order[k]] = static_cast<Index>(k);
-        mesh_.points[k] = received[order[k]];
-      }
-      for (auto& corner : triangles)
-      {
-        corner = { pointPlace_[corner[0]], pointPlace_[corner[1]], pointPlace_[corner[2]] };
-      }
-      mesh_.triangles = std::move(triangles);
-      trianglePlace_.resize(mesh_.triangles.size());
-      std::iota(trianglePlace_.begin(), trianglePlace_.end(), Index{ 0 });
-    });
+      place[point] = static_cast<Index>(points[rank].size());
+      const Vec3& x = own.points[point];
+      // Removes the sign of zeros, so that coincident points are equal.
+      points[rank].push_back({ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 });
+    }
+    for (const Index t : sentTriangles_[rank])
+    {
+      const auto& corner = own.triangles[t];
+      corners[rank].push_back({ place[corner[0]], place[corner[1]], place[corner[2]] });
+    }
+  }
+}
+
+/// Makes the mesh from what all ranks have sent, with its points in the order of space.
+void Redistribution::BuildMesh(std::vector<std::vector<Point>> points,
+  std::vector<std::vector<Corners>> corners, const Grid& grid)
+{
+  std::vector<Vec3> received;
+  std::vector<std::array<Id, 3>> triangles;
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    const auto first = static_cast<Id>(received.size());
+    for (const Point& point : points[rank])
+    {
+      received.emplace_back(point[0], point[1], point[2]);
+    }
+    for (const Corners& corner : corners[rank])
+    {
+      triangles.push_back({ first + corner[0], first + corner[1], first + corner[2] });
+    }
+    points[rank] = {};
+    corners[rank] = {};
+  }
+  RequireIndices(static_cast<double>(received.size()), "points");
+  const std::vector<Index> order = OrderInSpace(received, grid);
+  pointPlace_.resize(received.size());
+  mesh_.points.resize(received.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    pointPlace_[order[k]] = static_cast<Index>(k);
+    mesh_.points[k] = received[order[k]];
+  }
+  for (auto& corner : triangles)
+  {
+    corner = { pointPlace_[corner[0]], pointPlace_[corner[1]], pointPlace_[corner[2]] };
+  }
+  mesh_.triangles = std::move(triangles);
+  trianglePlace_.resize(mesh_.triangles.size());
+  std::iota(trianglePlace_.begin(), trianglePlace_.end(), Index{ 0 });
 }
 
 MultiVector Redistribution::Send(

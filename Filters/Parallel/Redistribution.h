@@ -6,6 +6,7 @@
 #include "Grid/TriangleMesh.h"
 #include "Parallel/BlockPartition.h"
 
+#include <array>
 #include <vector>
 
 namespace gridfem
@@ -60,10 +61,16 @@ public:
 
 private:
   using Lists = std::vector<std::vector<Index>>; // one per rank
+  using Point = std::array<double, 3>;
+  using Corners = std::array<Index, 3>; // places among the points sent to the same rank
 
   void Route(const TriangleMesh& own, const Grid& grid, const BlockPartition& partition,
     const std::vector<MortonKey>* cells);
   void Receive(const TriangleMesh& own, const Grid& grid);
+  void FillMessages(const TriangleMesh& own, std::vector<std::vector<Point>>& points,
+    std::vector<std::vector<Corners>>& corners) const;
+  void BuildMesh(std::vector<std::vector<Point>> points, std::vector<std::vector<Corners>> corners,
+    const Grid& grid);
   MultiVector Send(
     const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const;
 

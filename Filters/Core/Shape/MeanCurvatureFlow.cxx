@@ -9,6 +9,7 @@
 #include "Shape/MovedSurface.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace gridfem
@@ -89,6 +90,14 @@ void SolveStep(const FiniteElementSpace& space, const Multigrid& multigrid, cons
   const Columns length = Columns::Constant(squares.size(), std::sqrt(squares.max(0.0).sum()));
   solution.accuracy = watch.Result(solution.embedding, length,
     Eigen::RowVectorXd::Constant(squares.size(), 1.0 / space.UnitLength()), ErrorOrder::Observed);
+}
+
+/// A step that was not made.
+FlowStep Stopped(FlowEnd end)
+{
+  FlowStep step;
+  step.end = end;
+  return step;
 }
 
 FlowStep Describe(const SurfaceSize& size)
@@ -328,82 +337,93 @@ FlowStep MeanCurvatureFlow::Start(const Job& job) const
 
 FlowStep MeanCurvatureFlow::Advance(const Job& job)
 {
-  FlowStep stopped;
   MultiVector embedding;
   job.Check(0.0);
   const Id lockedSamples = this->Prepare(embedding, job.Part(0.0, 0.3));
   if (!moving_)
   {
-    stopped.end = FlowEnd::Unfit;
-    return stopped;
+    return Stopped(FlowEnd::Unfit);
   }
-  const double unit = moving_->UnitLength();
-  const double timeStep = options_.timeStep * std::pow(start_->UnitLength() / unit, 2);
+  const double timeStep =
+    options_.timeStep * std::pow(start_->UnitLength() / moving_->UnitLength(), 2);
   moving_->FillMatrix(0, 1.0, 0.0, mass_, job.threads);
   this->UpdateBoundary(timeStep, job.threads);
   this->UpdateHierarchy(timeStep, job.Part(0.3, 0.6));
   job.Check(0.6);
   StepSolution solution = this->Solve(embedding, job.Part(0.6, 1.0));
-  if (IsBroken(solution))
+  std::vector<Vec3> points;
+  FlowStep done = this->Rescale(embedding, solution, points, job.threads);
+  if (done.end != FlowEnd::None)
   {
-    stopped.end = FlowEnd::Breakdown;
-    return stopped;
+    return done;
   }
-  std::vector<Vec3> points = this->WorldPoints(*moving_, solution.embedding, job.threads);
-  SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
-  if (!(size.area > VanishedArea * startArea_))
-  {
-    stopped.end = FlowEnd::Vanished;
-    return stopped;
-  }
-  // Every step of the flow reduces the area. A step that has not converged and adds area is
-  // invalid.
-  const auto areaBefore = [&]
-  {
-    return SizeOf(
-      this->WorldPoints(*moving_, embedding, job.threads), mesh_->triangles, job.threads)
-      .area;
-  };
-  if (!solution.report.converged && !options_.conformalized && size.area > areaBefore())
-  {
-    stopped.end = FlowEnd::Breakdown;
-    return stopped;
-  }
-  const std::optional<double> scale = this->ScaleOf(size.area, size.volume);
-  if (!scale)
-  {
-    stopped.end = FlowEnd::VolumeLost;
-    return stopped;
-  }
-  if (options_.rescaling != Rescaling::None)
-  {
-    ScaleAbout((size.centroid - moving_->Origin()) / unit, *scale, solution.embedding, job.threads);
-    points = this->WorldPoints(*moving_, solution.embedding, job.threads);
-    size = SizeOf(points, mesh_->triangles, job.threads);
-  }
-  FlowStep done = Describe(size);
   job.Check(1.0);
 
-  if (options_.rebuild)
-  {
-    shape_.resize(static_cast<Id>(points.size()), 3);
-    for (Id k = 0; k < shape_.rows(); ++k)
-    {
-      SetRow(shape_, k, (points[k] - start_->Origin()) / start_->UnitLength());
-    }
-  }
-  else
-  {
-    shape_ = std::move(solution.embedding);
-  }
-  ++step_;
-  done.step = step_;
+  this->Keep(points, std::move(solution.embedding));
+  done.step = ++step_;
   done.time = step_ * options_.timeStep;
   done.iterations = solution.report.iterations;
   done.lockedSamples = lockedSamples;
   done.converged = solution.report.converged;
   done.accuracy = solution.accuracy;
   return done;
+}
+
+/// Judges the shape that a step leads to, and rescales it if the options ask for it.
+/// @param before  the embedding before the step
+/// @param points  receives the places of the mesh's points
+FlowStep MeanCurvatureFlow::Rescale(
+  const MultiVector& before, StepSolution& solution, std::vector<Vec3>& points, int threads) const
+{
+  if (IsBroken(solution))
+  {
+    return Stopped(FlowEnd::Breakdown);
+  }
+  const auto place = [&](const MultiVector& embedding)
+  {
+    points = this->WorldPoints(*moving_, embedding, threads);
+    return SizeOf(points, mesh_->triangles, threads);
+  };
+  // Every step of the flow reduces the area. A step that has not converged and adds area is
+  // invalid.
+  const bool mayGrow = solution.report.converged || options_.conformalized;
+  const double bound = mayGrow ? std::numeric_limits<double>::infinity() : place(before).area;
+  SurfaceSize size = place(solution.embedding);
+  if (!(size.area > VanishedArea * startArea_))
+  {
+    return Stopped(FlowEnd::Vanished);
+  }
+  if (size.area > bound)
+  {
+    return Stopped(FlowEnd::Breakdown);
+  }
+  const std::optional<double> scale = this->ScaleOf(size.area, size.volume);
+  if (!scale)
+  {
+    return Stopped(FlowEnd::VolumeLost);
+  }
+  if (options_.rescaling != Rescaling::None)
+  {
+    const Vec3 center = (size.centroid - moving_->Origin()) / moving_->UnitLength();
+    ScaleAbout(center, *scale, solution.embedding, threads);
+    size = place(solution.embedding);
+  }
+  return Describe(size);
+}
+
+/// Keeps the shape for the next step.
+void MeanCurvatureFlow::Keep(const std::vector<Vec3>& points, MultiVector embedding)
+{
+  if (!options_.rebuild)
+  {
+    shape_ = std::move(embedding);
+    return;
+  }
+  shape_.resize(static_cast<Id>(points.size()), 3);
+  for (Id k = 0; k < shape_.rows(); ++k)
+  {
+    SetRow(shape_, k, (points[k] - start_->Origin()) / start_->UnitLength());
+  }
 }
 
 } // namespace gridfem

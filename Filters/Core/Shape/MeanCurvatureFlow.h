@@ -130,6 +130,9 @@ private:
   void UpdateBoundary(double timeStep, int threads);
   StepSolution Solve(const MultiVector& embedding, const Job& job) const;
   void UpdateHierarchy(double timeStep, const Job& job);
+  FlowStep Rescale(const MultiVector& before, StepSolution& solution, std::vector<Vec3>& points,
+    int threads) const;
+  void Keep(const std::vector<Vec3>& points, MultiVector embedding);
   void FillMatrix(std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job);
   std::vector<Vec3> WorldPoints(
     const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const;

@@ -259,6 +259,70 @@ vtkSmartPointer<vtkPoints> MovedPoints(vtkDataArray* coordinates, vtkPoints* own
   return points;
 }
 
+/// The names of the input's field arrays that the filter has kept, one per line.
+std::string KeptNames(vtkFieldData* given, vtkFieldData* results)
+{
+  std::string names;
+  ForEachArray(given,
+    [&](vtkAbstractArray* array)
+    {
+      if (results->HasArray(array->GetName()) && !IsClipFieldArray(array->GetName()))
+      {
+        names += array->GetName() + std::string("\n");
+      }
+    });
+  return names;
+}
+
+/// Collective. Puts the arrays that this rank's filter has kept, and that another rank lacks, into
+/// the message. Returns whether any rank has such arrays.
+bool PutLackingArrays(
+  const Ranks& ranks, vtkFieldData* given, vtkFieldData* results, DataMessage& message)
+{
+  std::string own;
+  ranks.Together([&] { own = KeptNames(given, results); });
+  const std::vector<std::string> names = ranks.Exchange(own);
+  const auto isLacking = [&](const std::string& name)
+  {
+    return std::any_of(names.begin(), names.end(),
+      [&](const std::string& ofRank)
+      { return ("\n" + ofRank).find("\n" + name + "\n") == std::string::npos; });
+  };
+  bool isAnyLacking = false;
+  ranks.Together(
+    [&]
+    {
+      const vtkNew<vtkFieldData> wanted;
+      std::istringstream lines(own);
+      for (std::string name; std::getline(lines, name);)
+      {
+        if (isLacking(name))
+        {
+          wanted->AddArray(given->GetAbstractArray(name.c_str()));
+        }
+      }
+      isAnyLacking = wanted->GetNumberOfArrays() > 0;
+      message.PutArrays(wanted, -1);
+    });
+  return ranks.Any(isAnyLacking);
+}
+
+/// One message with the field arrays of all messages. The first of several arrays with the same
+/// name stays.
+Bytes Merged(std::vector<Bytes> messages)
+{
+  const vtkNew<vtkFieldData> all;
+  for (Bytes& bytes : messages)
+  {
+    const vtkNew<vtkFieldData> ofRank;
+    DataMessage(std::move(bytes)).TakeArrays(ofRank);
+    AddMissing(ofRank, all);
+  }
+  DataMessage merged;
+  merged.PutArrays(all, -1);
+  return merged.Release();
+}
+
 } // namespace
 
 void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message,
@@ -307,63 +371,14 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
   const vtkNew<vtkFieldData> none;
   vtkFieldData* const given = input ? input->GetFieldData() : none.Get();
   vtkFieldData* const results = output->GetFieldData();
-  std::string own; // names of the input's arrays that the filter has kept, one per line
-  ranks.Together(
-    [&]
-    {
-      ForEachArray(given,
-        [&](vtkAbstractArray* array)
-        {
-          if (results->HasArray(array->GetName()) && !IsClipFieldArray(array->GetName()))
-          {
-            own += array->GetName() + std::string("\n");
-          }
-        });
-    });
-  const std::vector<std::string> names = ranks.Exchange(own);
-  const auto isLacking = [&](const std::string& name)
-  {
-    return std::any_of(names.begin(), names.end(),
-      [&](const std::string& ofRank)
-      { return ("\n" + ofRank).find("\n" + name + "\n") == std::string::npos; });
-  };
   DataMessage message;
-  bool isAnyLacking = false;
-  ranks.Together(
-    [&]
-    {
-      const vtkNew<vtkFieldData> wanted;
-      std::istringstream lines(own);
-      for (std::string name; std::getline(lines, name);)
-      {
-        if (isLacking(name))
-        {
-          wanted->AddArray(given->GetAbstractArray(name.c_str()));
-        }
-      }
-      isAnyLacking = wanted->GetNumberOfArrays() > 0;
-      message.PutArrays(wanted, -1);
-    });
-  if (!ranks.Any(isAnyLacking))
+  if (!PutLackingArrays(ranks, given, results, message))
   {
     return;
   }
   std::vector<Bytes> messages = ranks.Gather(message.Release());
   std::vector<Bytes> copies;
-  ranks.OnFirst(
-    [&]
-    {
-      const vtkNew<vtkFieldData> all;
-      for (Bytes& bytes : messages)
-      {
-        const vtkNew<vtkFieldData> ofRank;
-        DataMessage(std::move(bytes)).TakeArrays(ofRank);
-        AddMissing(ofRank, all);
-      }
-      DataMessage merged;
-      merged.PutArrays(all, -1);
-      copies.assign(ranks.Count(), merged.Release());
-    });
+  ranks.OnFirst([&] { copies.assign(ranks.Count(), Merged(std::move(messages))); });
   Bytes merged = ranks.Scatter(copies);
   ranks.Together(
     [&]
