@@ -8,7 +8,7 @@ execute_process(
 # A changelog in Debian's form beside ours.
 set(changelog ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/doc/gridfem/changelog)
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # that of SOURCE_DATE_EPOCH where it is set
-file(WRITE ${changelog} "gridfem (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
+file(WRITE ${changelog} "gridfem (${CPACK_DEBIAN_PACKAGE_VERSION}) unstable; urgency=medium
 
   * What has changed is in CHANGELOG.md beside this file.
 

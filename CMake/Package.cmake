@@ -7,7 +7,10 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/CMake/GridFEMConfig.cmake.in
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
+file(COPY ${PROJECT_SOURCE_DIR}/CMake/DebianParaView.cmake
+  DESTINATION ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION})
 install(FILES
+  ${PROJECT_SOURCE_DIR}/CMake/DebianParaView.cmake
   ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfig.cmake
   ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfigVersion.cmake
   DESTINATION ${GRIDFEM_CMAKE_DESTINATION})
@@ -38,13 +41,22 @@ the surface, let heat and the surface itself flow, and compute eigenfunctions.
 A plugin for ParaView, a Python package, and C++ libraries with their headers.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# Each Debian has its own package, and an upgrade to the next Debian replaces it.
+set(CPACK_DEBIAN_PACKAGE_VERSION ${PROJECT_VERSION})
+if (EXISTS /etc/os-release)
+  file(STRINGS /etc/os-release release REGEX "^VERSION_ID=")
+  string(REGEX REPLACE "[^0-9.]" "" release "${release}")
+  if (release)
+    string(APPEND CPACK_DEBIAN_PACKAGE_VERSION "+deb${release}")
+  endif ()
+endif ()
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # For packages that link to these libraries; cpack would name those of glibc-hwcaps once more.
 set(shlibs)
 foreach (library gridfem_core gridfem_parallel)
   if (TARGET ${library})
     get_target_property(version ${library} SOVERSION)
-    string(APPEND shlibs "lib${library} ${version} gridfem (= ${PROJECT_VERSION})\n")
+    string(APPEND shlibs "lib${library} ${version} gridfem (= ${CPACK_DEBIAN_PACKAGE_VERSION})\n")
   endif ()
 endforeach ()
 file(WRITE ${PROJECT_BINARY_DIR}/shlibs ${shlibs})

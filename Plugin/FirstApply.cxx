@@ -1,5 +1,7 @@
 #include "FirstApply.h"
 
+#include "ParaViewVersions.h"
+
 #include "vtkClientServerInterpreter.h"
 #include "vtkClientServerInterpreterInitializer.h"
 #include "vtkCommand.h"
@@ -10,13 +12,13 @@
 #include "vtkPVDataInformation.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMAnimationSceneProxy.h"
-#include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyInitializationHelper.h"
 #include "vtkSMProxyIterator.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMProxySelectionModel.h"
+#include "vtkSMRepresentationProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMViewProxy.h"
@@ -284,15 +286,14 @@ private:
     const auto views = ViewsOf(filter, 0);
     for (const auto& [view, shown] : views)
     {
-      if (shown->GetProperty("ColorArrayName") &&
-          !vtkSMPVRepresentationProxy::GetUsingScalarColoring(shown))
+      if (shown->GetProperty("ColorArrayName") && !gridfem::Coloring::GetUsingScalarColoring(shown))
       {
         vtkSMPropertyHelper(shown, "MapScalars", true).Set(areColors ? 0 : 1);
-        vtkSMPVRepresentationProxy::SetScalarColoring(shown, array->GetName(), association);
-        vtkSMPVRepresentationProxy::RescaleTransferFunctionToDataRange(shown, false, false);
+        gridfem::Coloring::SetScalarColoring(shown, array->GetName(), association);
+        gridfem::Coloring::RescaleTransferFunctionToDataRange(shown, false, false);
         if (!areColors && ShowsColorBars(filter->GetSessionProxyManager()))
         {
-          vtkSMPVRepresentationProxy::SetScalarBarVisibility(shown, view, true);
+          gridfem::Coloring::SetScalarBarVisibility(shown, view, true);
         }
       }
     }
@@ -331,10 +332,10 @@ private:
         {
           return true;
         }
-        const bool isThere = vtkSMPVRepresentationProxy::IsScalarBarVisible(shown, view);
+        const bool isThere = gridfem::Coloring::IsScalarBarVisible(shown, view);
         if (isThere)
         {
-          vtkSMPVRepresentationProxy::SetScalarBarVisibility(shown, view, false);
+          gridfem::Coloring::SetScalarBarVisibility(shown, view, false);
         }
         return isThere;
       });

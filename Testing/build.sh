@@ -7,16 +7,34 @@ BUILD="$SOURCE/build"
 JOBS="${GRIDFEM_JOBS:-$(nproc)}"
 
 CORE_PACKAGES=(cmake ninja-build g++ libeigen3-dev)
-BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview libopenmpi-dev
-  python3-dev libcli11-dev libgtest-dev libqt5svg5 qttools5-dev qttools5-dev-tools
-  qtxmlpatterns5-dev-tools cmark-gfm xvfb xauth)
-TEST_PACKAGES=(clang-format clang libomp-dev openmpi-bin python3-pybind11 python3-numpy python3-pip
-  python3-setuptools python3-wheel python3-meshio)
+# What runs the tests on a build, and what looks at the sources besides.
+RUN_PACKAGES=(openmpi-bin python3-pybind11 python3-numpy python3-pip python3-setuptools python3-wheel
+  python3-meshio)
+TEST_PACKAGES=(clang-format clang libomp-dev "${RUN_PACKAGES[@]}")
 BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev
   libspectra-dev libopenblas-dev libopenmpi-dev openmpi-bin slepc-dev libcgal-dev)
-PLAIN_VTK_PACKAGES=(ca-certificates ccache libvtk9-dev python3-vtk9 python3-dev python3-numpy
+PLAIN_VTK_PACKAGES=(ca-certificates libvtk9-dev python3-vtk9 python3-dev python3-numpy
   libopenmpi-dev libcli11-dev libgtest-dev)
 FIGURE_PACKAGES=(paraview python3-paraview xvfb xauth)
+
+# Prints the packages that building for the ParaView of a Debian or Ubuntu takes.
+ParaViewPackages()
+{
+  local packages=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview libopenmpi-dev python3-dev
+    libcli11-dev libgtest-dev cmark-gfm xvfb xauth)
+  case "$1" in
+    bookworm | jammy | noble) packages+=(libqt5svg5 qttools5-dev qttools5-dev-tools) ;;
+    trixie) packages+=(qt6-svg-plugins qt6-tools-dev qt6-tools-dev-tools) ;;
+    # ParaView 6 of Debian is built on the VTK of Debian.
+    *) packages+=(qt6-svg-plugins qt6-tools-dev qt6-tools-dev-tools libvtk9-dev libjsoncpp-dev) ;;
+  esac
+  printf '%s\n' "${packages[@]}"
+}
+
+# The name of this Debian or Ubuntu, such as bookworm; empty elsewhere.
+SuiteOfHere() { (. /etc/os-release 2> /dev/null && echo "${VERSION_CODENAME:-}") || true; }
+
+mapfile -t BUILD_PACKAGES < <(ParaViewPackages "$(SuiteOfHere)")
 
 Say() { printf '%s\n' "-- $*" >&2; }
 

@@ -1,8 +1,8 @@
 """Runs every filter on real meshes, at two depths and with hat functions, with all other properties
 as in the panel. Prints the page Plugin/Documentation/RealMeshes.md.
 
-    export GRIDFEM_SOURCE_DIR=. GRIDFEM_PLUGIN=build/lib/paraview-5.11/plugins/GridFEM/GridFEM.so
-    export PYTHONPATH=Testing/Plugin PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml
+    export GRIDFEM_SOURCE_DIR=. GRIDFEM_PLUGIN=build/paraview/GridFEM/GridFEM.so
+    export PYTHONPATH=Testing/Plugin PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml
     xvfb-run -a pvpython Testing/outcomes.py MESH... > Plugin/Documentation/RealMeshes.md
 
 MESH: files that ParaView reads, and .off. Every mesh has a process of its own, so that a crash is an

@@ -6,7 +6,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkVector.h>
-#include <vtkVectorOperators.h>
 
 #include <cmath>
 
@@ -39,11 +38,16 @@ void InsertRing(double t, double stripe, vtkPoints* points, vtkDoubleArray* stri
   const vtkVector3d tangent = Tangent(t);
   const vtkVector3d outward = tangent.Cross(vtkVector3d(0, 0, 1)).Normalized();
   const vtkVector3d upward = outward.Cross(tangent).Normalized();
+  const vtkVector3d centre = Centre(t);
   for (int j = 0; j < Around; ++j)
   {
     const double angle = 2 * vtkMath::Pi() * j / Around;
-    const vtkVector3d point =
-      Centre(t) + TubeRadius * (std::cos(angle) * outward + std::sin(angle) * upward);
+    vtkVector3d point;
+    for (int c = 0; c < 3; ++c)
+    {
+      point[c] =
+        centre[c] + TubeRadius * (std::cos(angle) * outward[c] + std::sin(angle) * upward[c]);
+    }
     points->InsertNextPoint(point.GetData());
     stripes->InsertNextValue(stripe);
   }

@@ -1,7 +1,7 @@
 """Blocks as one surface, in ParaView's Python: distances on a mesh that is cut into three blocks, each
 by itself and all as one.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython blocks.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...).

@@ -1,6 +1,6 @@
 """Detail of a surface, smoothed and sharpened, everywhere, by curvature, and in one place.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython detail.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...).

@@ -1,7 +1,7 @@
 """Distances along a surface, in ParaView's Python: isolines from one point and from four, and the
 regions of eight. Each point is as far as possible from the points before it.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython distance.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...).

@@ -1,6 +1,6 @@
 """The whole pipeline in ParaView: read, clip, build one basis, let two solvers share it, write.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         pvpython pipeline.py MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
 
 With an installed GridFEM, use the path of the installed gridfem.plugins.xml.

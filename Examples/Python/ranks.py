@@ -1,6 +1,6 @@
 """Eigenfunctions on several MPI ranks, and a picture of one beside the pieces of the ranks.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a mpiexec -n 4 --bind-to none pvbatch ranks.py MESH DEPTH MODES.pvtp PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...). Without --bind-to none a rank may get only one

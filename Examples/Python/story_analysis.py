@@ -1,7 +1,7 @@
 """Finds the limbs of a scan in ParaView's Python: the tips by eigenfunctions, and the regions
 around them by distances along the surface.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython story_analysis.py MESH DEPTH TIPS PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...), TIPS how many tips to look for at most. The story is told

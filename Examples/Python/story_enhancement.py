@@ -1,6 +1,6 @@
 """A scan is cleaned, and its detail enhanced, in ParaView's Python.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython story_enhancement.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...). The story is told in

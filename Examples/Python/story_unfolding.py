@@ -1,6 +1,6 @@
 """A folded surface unfolds, and measurements on it come along, in ParaView's Python.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython story_unfolding.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...). The story is told in Examples/Stories/unfolding.md.

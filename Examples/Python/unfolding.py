@@ -1,7 +1,7 @@
 """A surface with folds that nearly touch unfolds, in ParaView's Python. The picture shows four
 steps with plain functions above, and with connectivity-aware functions below.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython unfolding.py MESH DEPTH PICTURE.png
 
 MESH is a file that ParaView reads (.ply, .vtp, ...).

@@ -153,7 +153,7 @@ HeldValues HoldHats(const RankLevels& levels, const MultiVector& received)
         }
       }
       held.rows = rows.Finish(static_cast<Index>(first.rows()));
-      held.values = values(hats, Eigen::all);
+      held.values = values(hats, Eigen::indexing::all);
     });
   return held;
 }

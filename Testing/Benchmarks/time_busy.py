@@ -1,7 +1,7 @@
 """Seconds that a new weight of Screened Poisson takes, alone and beside two processes that compute. Run with
 no variables of OpenMP set, as users do:
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml pvpython time_busy.py MESH DEPTH
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml pvpython time_busy.py MESH DEPTH
 """
 
 import statistics

@@ -1,6 +1,6 @@
 """Seconds from a change of a property of Surface Detail to the new picture in a view of ParaView.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython time_detail.py MESH DEPTH
 """
 

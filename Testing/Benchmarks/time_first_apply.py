@@ -1,7 +1,7 @@
 """Seconds of a first Apply of Screened Poisson with no property touched, and of the same to a
 tolerance of 1e-6, from the click to values at the points. Every mesh is in memory before.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython time_first_apply.py MESH...
 """
 

@@ -1,7 +1,7 @@
 """Geodesic Distance beside vtkDijkstraGraphGeodesicPath, which goes along edges: seconds from the
 mesh to distances at all points, and errors in the longest distance, on a unit sphere.
 
-    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+    PV_PLUGIN_CONFIG_FILE=build/paraview/gridfem.plugins.xml \\
         xvfb-run -a pvpython time_geodesic_path.py
 """
 

@@ -113,7 +113,7 @@ void LocalCorrection::FindRanges()
 
 MultiVector LocalCorrection::OfHats(const MultiVector& atPoints) const
 {
-  return atPoints(place_, Eigen::all);
+  return atPoints(place_, Eigen::indexing::all);
 }
 
 std::vector<Id> LocalCorrection::PointsBeyond(const MultiVector& atPoints, double share) const

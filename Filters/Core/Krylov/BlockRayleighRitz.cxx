@@ -112,7 +112,7 @@ void BlockRayleighRitz<Real>::NextVectors(
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(size, newX + newP);
   C.leftCols(newX) = ritz.coefficients;
   C.bottomRightCorner(size - oldX, newP) =
-    ritz.coefficients.bottomRows(size - oldX)(Eigen::all, columns);
+    ritz.coefficients.bottomRows(size - oldX)(Eigen::indexing::all, columns);
   const Eigen::MatrixXd overlap = this->Overlap(ritz, C.rightCols(newP));
   C.rightCols(newP) -= ritz.coefficients * overlap;
   stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
@@ -145,7 +145,7 @@ void BlockRayleighRitz<Real>::CombineRows(
       share.noalias() += W.middleRows(begin, count) * C.bottomRows(W.cols());
       Vectors<Real> next = oldX.middleRows(begin, count) * C.topRows(oldX.cols());
       next += share;
-      Vectors<Real> step = share(Eigen::all, columns);
+      Vectors<Real> step = share(Eigen::indexing::all, columns);
       step.noalias() -= next * common;
       newX.middleRows(begin, count) = next;
       newP.middleRows(begin, count) = step;

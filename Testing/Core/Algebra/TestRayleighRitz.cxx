@@ -189,7 +189,7 @@ TEST(Products, TakeColumnsOfAWiderBlock)
   for (const std::vector<Index>& columns :
     { std::vector<Index>{ 4, 5, 6 }, { 0, 17, 18, 38 }, { 20 }, {} })
   {
-    const MultiVector wanted = plain(Eigen::all, columns);
+    const MultiVector wanted = plain(Eigen::indexing::all, columns);
     EXPECT_LE((rowsOf(columns) - wanted).norm(), 1e-13 * wanted.norm());
   }
   EXPECT_THROW(EigenResidual<double>(A, B, X, values.head(38), { 1 }), InvalidInput);
@@ -245,7 +245,7 @@ TYPED_TEST(BlockBuffers, KeepTheirMemoryAndTheirNumbers)
   buffer.Show(8);
   buffer.Keep({ 1, 4, 7 });
   EXPECT_EQ(buffer.Columns(), 3);
-  EXPECT_TRUE(buffer.View() == X(Eigen::all, std::vector<Index>{ 1, 4, 7 }));
+  EXPECT_TRUE(buffer.View() == X(Eigen::indexing::all, std::vector<Index>{ 1, 4, 7 }));
   const Vectors<TypeParam> kept = buffer.View();
   buffer.Grow(100, 20);
   EXPECT_TRUE(buffer.View() == kept);

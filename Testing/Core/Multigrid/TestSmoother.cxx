@@ -168,7 +168,7 @@ MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
     const std::vector<Index> unknowns(used.begin(), used.end());
     const Eigen::MatrixXd rest = b - Product(D, x);
     const Eigen::MatrixXd correction =
-      DenseSolution(D(unknowns, unknowns), rest(unknowns, Eigen::all));
+      DenseSolution(D(unknowns, unknowns), rest(unknowns, Eigen::indexing::all));
     for (std::size_t i = 0; i < unknowns.size(); ++i)
     {
       x.row(unknowns[i]) += correction.row(static_cast<Id>(i));

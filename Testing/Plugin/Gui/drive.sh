@@ -10,6 +10,6 @@ command -v paraview > /dev/null || { echo "skipped: no paraview program"; exit 7
 # Play EVENTS.xml [OPTION OF PARAVIEW...]
 Play() {
   XDG_CONFIG_HOME="$work" timeout 400 paraview --dr "${@:2}" \
-    --plugins GridFEM --plugin-search-paths "$(dirname "$GRIDFEM_PLUGIN")" \
+    --plugins=GridFEM --plugin-search-paths="$(dirname "$GRIDFEM_PLUGIN")" \
     --test-directory="$work" --test-script="$1" --exit
 }

@@ -1,0 +1,15 @@
+// Gives ParaView's window the pages of the plugin's help where ParaView's build rules do not:
+// ParaView 5.12 and 5.13 with Qt 6 (ParaView issue 19742). The list of plugins then shows the pages
+// as a plugin of their own.
+#ifndef GridFEM_HelpPages_h
+#define GridFEM_HelpPages_h
+
+namespace gridfem
+{
+
+/// Hands the pages over. The plugin calls it when it is loaded.
+void RegisterHelpPages();
+
+} // namespace gridfem
+
+#endif
