@@ -74,8 +74,13 @@ private:
 /// Largest number of items in a message, because MPI counts them with 32 bits.
 constexpr Id ItemsPerMessage = std::numeric_limits<int>::max() / 2;
 
+/// Returns the count as MPI takes it. All ranks have the same count, so that all throw or none.
 int CountOf(Id items)
 {
+  if (items > std::numeric_limits<int>::max())
+  {
+    throw InvalidInput("The ranks hold more than 2^31 - 1 items that all of them need.");
+  }
   return static_cast<int>(items);
 }
 
@@ -184,10 +189,7 @@ void Communicator::GatherBytes(
     begin[r] = CountOf(total);
     total += counts[r];
   }
-  if (total > std::numeric_limits<int>::max())
-  {
-    throw InvalidInput("The ranks hold more than 2^31 - 1 items that all of them need.");
-  }
+  CountOf(total);
   this->RequireAll();
   const ItemType type(itemSize);
   MPI_Allgatherv(own, count[rank_], type, all, count.data(), begin.data(), type, handle_);

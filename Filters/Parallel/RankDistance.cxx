@@ -187,7 +187,7 @@ DistanceField RankDistance::From(
   field.unreached = heat.unreached;
   field.accuracy.algebraic = solution.accuracy.algebraic;
   field.report = std::move(solution.report);
-  field.report.converged = field.report.converged && field.heatConverged;
+  field.report.converged = field.report.converged && field.heatConverged && field.unreached == 0;
   const std::vector<double> zero = this->ZeroesAt(held.rows, solution.coefficients);
   const MultiVector value = levels_.ValuesAtPoints(solution.coefficients);
   field.atPoints = ShiftedToZero(value, component_, zero, marks);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 namespace gridfem
 {
@@ -50,6 +52,28 @@ std::vector<Id> SizesOf(const std::vector<std::vector<T>>& lists)
     sizes.push_back(static_cast<Id>(list.size()));
   }
   return sizes;
+}
+
+/// Throws if a rank has sent another number of values than this rank expects.
+void RequireSize(std::size_t size, Id rows, Id columns)
+{
+  if (size != static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns))
+  {
+    throw std::length_error("A rank has sent " + std::to_string(size) + " values, expected " +
+                            std::to_string(rows) + " rows of " + std::to_string(columns) + ".");
+  }
+}
+
+/// Throws if a rank has sent a place outside [0, places).
+void RequirePlaces(const std::vector<Index>& sent, Id places)
+{
+  const auto wrong = std::find_if(
+    sent.begin(), sent.end(), [&](Index place) { return place < 0 || place >= places; });
+  if (wrong != sent.end())
+  {
+    throw std::out_of_range("A rank has sent place " + std::to_string(*wrong) + ", but there are " +
+                            std::to_string(places) + ".");
+  }
 }
 
 } // namespace
@@ -181,8 +205,8 @@ void Redistribution::BuildMesh(std::vector<std::vector<Point>> points,
   std::iota(trianglePlace_.begin(), trianglePlace_.end(), Index{ 0 });
 }
 
-MultiVector Redistribution::Send(
-  const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const
+MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
+  const std::vector<Id>& expected, const std::vector<Index>& place) const
 {
   const Id columns = own.cols();
   std::vector<std::vector<double>> rows(ranks_.Size());
@@ -204,11 +228,12 @@ MultiVector Redistribution::Send(
     {
       received.resize(static_cast<Id>(place.size()), columns);
       std::size_t k = 0;
-      for (const auto& ofRank : rows)
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
-        for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+        RequireSize(rows[rank].size(), expected[rank], columns);
+        for (Id row = 0; row < expected[rank]; ++row)
         {
-          std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
+          std::copy_n(rows[rank].data() + row * columns, columns, received.row(place[k++]).data());
         }
       }
     });
@@ -217,12 +242,12 @@ MultiVector Redistribution::Send(
 
 MultiVector Redistribution::SendPoints(const MultiVector& own) const
 {
-  return this->Send(own, sentPoints_, pointPlace_);
+  return this->Send(own, sentPoints_, receivedPoints_, pointPlace_);
 }
 
 MultiVector Redistribution::SendTriangles(const MultiVector& own) const
 {
-  return this->Send(own, sentTriangles_, trianglePlace_);
+  return this->Send(own, sentTriangles_, receivedTriangles_, trianglePlace_);
 }
 
 std::vector<char> Redistribution::ReturnPoints(
@@ -252,7 +277,16 @@ std::vector<char> Redistribution::ReturnPoints(
   which = ranks_.Exchange(which);
   values = ranks_.Exchange(values);
   std::vector<char> isReturned;
-  ranks_.Together([&] { isReturned.assign(numberOfOwnPoints_, 0); });
+  ranks_.Together(
+    [&]
+    {
+      isReturned.assign(numberOfOwnPoints_, 0);
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        RequireSize(values[rank].size(), static_cast<Id>(which[rank].size()), columns);
+        RequirePlaces(which[rank], static_cast<Id>(sentPoints_[rank].size()));
+      }
+    });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < which[rank].size(); ++k)
@@ -284,7 +318,15 @@ MultiVector Redistribution::SumTriangles(const MultiVector& rows) const
     });
   parts = ranks_.Exchange(parts);
   MultiVector sum;
-  ranks_.Together([&] { sum = MultiVector::Zero(numberOfOwnTriangles_, columns); });
+  ranks_.Together(
+    [&]
+    {
+      sum = MultiVector::Zero(numberOfOwnTriangles_, columns);
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        RequireSize(parts[rank].size(), static_cast<Id>(sentTriangles_[rank].size()), columns);
+      }
+    });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < sentTriangles_[rank].size(); ++k)

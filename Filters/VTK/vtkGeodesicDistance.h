@@ -44,7 +44,8 @@
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
  *   distance is from. It is -1 where no source can be reached.
  * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,
- *   `Residual`, `ConvergenceFactor`.
+ *   `Residual`, `ConvergenceFactor`. `Converged` is also 0 if the heat has not settled or does not
+ *   reach the whole surface.
  * - field data: `HeatSweeps` (double, 1).
  *
  * Errors are proportional to the size of the functions. They are sqrt(t) / 2 to sqrt(t) near

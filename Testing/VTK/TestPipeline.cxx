@@ -307,7 +307,10 @@ TEST_F(Pipeline, DamagedTablesAreRefusedByName)
     { "PatchId", true, std::nan("") }, { "OctreeCellId", true, 1e9 },
     { "PatchBasisIds", false, -5 }, { "PatchBasisIds", false, 1e12 }, { "PatchCellId", false, 1e9 },
     { "OctreeCells", false, 16 }, { "GridDepth", false, 77 }, { "GridSpacing", false, 0 },
-    { "GridOrigin", false, INFINITY }, { "NumberOfBasisFunctions", false, 1e12 } };
+    { "GridOrigin", false, INFINITY }, { "NumberOfBasisFunctions", false, 1e12 },
+    { "NumberOfBasisFunctions", false, 2e9 }, { "GridSpacing", false, 1e-320 },
+    // In range: functions of other corners of the grid.
+    { "PatchBasisIds", false, 1 }, { "PatchBasisIds", false, 200 } };
   for (const Damage& damage : damages)
   {
     vtkNew<vtkPolyData> damaged;

@@ -183,7 +183,7 @@ double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
 }
 
 /// Relaxes one patch.
-/// @return  the largest change over the heat of the patch
+/// @return  the largest change over the heat of the patch; infinite for a change that is NaN
 double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
 {
   const UnknownGroup unknowns = patches_->Unknowns(patch);
@@ -195,15 +195,18 @@ double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) con
   patches_->Relax(patch, RowView(A_), b.data(), u.data(), ColumnChunk<1, 1>());
   double heat = SmallestHeat;
   double change = 0.0;
+  double sum = 0.0; // of the changes; it keeps NaN, which std::max drops
   for (Id k = 0; k < unknowns.size(); ++k)
   {
     const Index i = unknowns[k];
     double& value = u(i, 0);
     value = std::abs(value) * size_[i] < SmallestHeat ? 0.0 : value;
     heat = std::max(heat, std::abs(value) * size_[i]);
-    change = std::max(change, std::abs(value - before[k]) * size_[i]);
+    const double moved = std::abs(value - before[k]) * size_[i];
+    sum += moved;
+    change = std::max(change, moved);
   }
-  return change / heat;
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : change / heat;
 }
 
 /// Relaxes the patches layer after layer, until they settle.

@@ -351,7 +351,7 @@ MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions&
     SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1), load, options, progress);
   field.accuracy.algebraic = solution.accuracy.algebraic;
   field.report = std::move(solution.report);
-  field.report.converged = field.report.converged && field.heatConverged;
+  field.report.converged = field.report.converged && field.heatConverged && field.unreached == 0;
   return std::move(solution.coefficients);
 }
 

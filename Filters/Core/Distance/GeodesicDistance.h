@@ -38,7 +38,7 @@ struct DistanceField
   /// the straight distance through space from the sources; inside a curve it is at most the
   /// negative of that. NaN if no function reaches the point or its component has no source.
   std::vector<double> atPoints;
-  SolveReport report; // of the distance; not converged if the heat was not
+  SolveReport report; // not converged if the heat was not, or functions are unreached
   bool heatConverged = false;
   double heatSweeps = 0.0; // see HeatField
   Id unreached = 0;        // functions too far for any heat; their distances are wrong

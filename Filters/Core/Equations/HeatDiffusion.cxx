@@ -93,7 +93,7 @@ SolveReport HeatDiffusion::Advance(const Job& job)
   PoissonSolution solution;
   MultiVector before; // coefficients of the solve before the last
   MultiVector now = load_;
-  SolutionAccuracy accuracy;
+  auto accuracy = SolutionAccuracy::Exact();
   bool converged = true;
   for (int k = 0; k < solves; ++k)
   {

@@ -23,6 +23,7 @@ public:
   {
     poisson_.estimateErrors = true;
     report.converged = true;
+    accuracy = SolutionAccuracy::Exact();
   }
 
   /// @param values, gradients  integrals of a field and of its gradient; gradients may have no rows

@@ -42,10 +42,15 @@ double Worst(const Columns& values)
   return values.size() == 0 ? SolutionAccuracy::Unknown : values.maxCoeff<Eigen::PropagateNaN>();
 }
 
-/// Relative errors; 0 for columns of size 0.
+/// Relative errors; 0 for columns of size 0. Unknown where one of the two is NaN.
 Columns Relative(const Columns& error, const Columns& size)
 {
-  return (size > 0.0).select(error / size, 0.0);
+  return (size == 0.0).select(0.0 * error, error / size);
+}
+
+double LargerOrUnknown(double a, double b)
+{
+  return std::isnan(a) || a >= b ? a : b;
 }
 
 /// The fraction of the last correction that is left as an error. A cycle leaves 1 - θ of the
@@ -67,14 +72,10 @@ Columns Reductions(const Columns& step, const Columns& lastStep, const Columns& 
 
 void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept)
 {
-  const bool isFirst = std::isnan(kept.discretization);
-  if (!std::isnan(accuracy.discretization))
-  {
-    kept.isTrusted = accuracy.isTrusted && (isFirst || kept.isTrusted);
-  }
-  kept.discretization = std::fmax(kept.discretization, accuracy.discretization);
-  kept.largest = std::fmax(kept.largest, accuracy.largest);
-  kept.algebraic = std::fmax(kept.algebraic, accuracy.algebraic);
+  kept.isTrusted = accuracy.isTrusted && kept.isTrusted;
+  kept.discretization = LargerOrUnknown(kept.discretization, accuracy.discretization);
+  kept.largest = LargerOrUnknown(kept.largest, accuracy.largest);
+  kept.algebraic = LargerOrUnknown(kept.algebraic, accuracy.algebraic);
 }
 
 AccuracyWatch::AccuracyWatch(const SpaceLevels& space, MultiVector nested,
@@ -155,7 +156,8 @@ SolutionAccuracy AccuracyWatch::Result(const MultiVector& solution, const Column
   const MultiVector atPoints = space_.ValuesAtPoints(
     difference * (scale.transpose().array() * overError).inverse().matrix().asDiagonal(), threads_);
   // If values are near the largest number, the error may exceed it.
-  const double largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() : 0.0;
+  const double largest =
+    atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
   result.largest = std::isinf(largest) ? SolutionAccuracy::Unknown : largest;
   if (rate.size() > 0)
   {

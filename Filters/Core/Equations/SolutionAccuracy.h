@@ -31,10 +31,13 @@ struct SolutionAccuracy
   /// triangles. If not trusted, the surface or the data are not resolved, or the levels are too
   /// coarse. The error of the space may then be several times as large.
   bool isTrusted = false;
+
+  /// Returns no errors at all, from which KeepWorse starts.
+  static SolutionAccuracy Exact() { return { 0.0, 0.0, 0.0, true }; }
 };
 
-/// Combines the errors of several solves: keeps the worst of each kind, and `kept` where the other
-/// is unknown.
+/// Combines the errors of several solves: keeps the worst of each kind. An error is unknown if one
+/// of them is unknown.
 void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept);
 
 /// How an error follows from the difference of two levels.

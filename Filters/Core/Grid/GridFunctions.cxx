@@ -1,15 +1,14 @@
 #include "Grid/GridFunctions.h"
 
-#include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Grid/PatchChoice.h"
 #include "Grid/PieceAdjacency.h"
+#include "Grid/StoredFunctions.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <map>
-#include <string>
 
 namespace gridfem
 {
@@ -32,47 +31,6 @@ GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel 
   FindComponents(space, job.threads);
   job.Check(1.0);
   return space;
-}
-
-void CheckTables(
-  const ClippedMesh& clipped, const Array<Index>& piecePatch, const PatchLevel& finest)
-{
-  if (static_cast<Id>(piecePatch.size()) != clipped.NumberOfPieces())
-  {
-    throw InvalidInput("There are " + std::to_string(piecePatch.size()) + " patch ids for " +
-                       std::to_string(clipped.NumberOfPieces()) + " clipped triangles.");
-  }
-  if (finest.cell.size() != finest.dof.size())
-  {
-    throw InvalidInput("There are " + std::to_string(finest.cell.size()) +
-                       " patch cells but functions for " + std::to_string(finest.dof.size()) +
-                       " patches.");
-  }
-  for (std::size_t piece = 0; piece < piecePatch.size(); ++piece)
-  {
-    if (piecePatch[piece] < 0 || piecePatch[piece] >= finest.NumberOfPatches())
-    {
-      throw InvalidInput("Clipped triangle " + std::to_string(piece) + " has patch " +
-                         std::to_string(piecePatch[piece]) + ", but there are " +
-                         std::to_string(finest.NumberOfPatches()) + " patches.");
-    }
-  }
-  for (std::size_t patch = 0; patch < finest.dof.size(); ++patch)
-  {
-    for (const Index function : finest.dof[patch])
-    {
-      if (function < 0 || function >= finest.numberOfFunctions)
-      {
-        throw InvalidInput("Patch " + std::to_string(patch) + " has function " +
-                           std::to_string(function) + ", but there are " +
-                           std::to_string(finest.numberOfFunctions) + " functions.");
-      }
-    }
-    if (patch > 0 && finest.cell[patch] < finest.cell[patch - 1])
-    {
-      throw InvalidInput("Patch " + std::to_string(patch) + " is not in Morton order.");
-    }
-  }
 }
 
 /// Replaces the choice by a better patch. The result does not depend on the order of the threads.
@@ -201,7 +159,7 @@ GridFunctions BuildGridFunctions(ClippedMesh clipped, FunctionSupport support, c
 GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
   FunctionSupport support, const Progress& progress)
 {
-  CheckTables(clipped, piecePatch, finest);
+  RequireStoredFunctions(clipped, piecePatch, finest, support);
   finest.depth = clipped.grid.depth;
   Array<Link> links = LinksOfGroups(clipped.links, piecePatch);
   return Complete(std::move(clipped), std::move(piecePatch), std::move(finest), std::move(links),

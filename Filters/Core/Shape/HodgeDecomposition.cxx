@@ -154,6 +154,7 @@ HodgeDecomposition DecomposeField(const FiniteElementSpace& space, const Triangl
 
   HodgeDecomposition parts;
   parts.report.converged = true;
+  parts.accuracy = SolutionAccuracy::Exact();
   parts.numberOfComponents = edges.numberOfComponents;
   parts.numberOfOneSided = edges.numberOfOneSided;
   const MultiVector potentials =

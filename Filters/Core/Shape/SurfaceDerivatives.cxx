@@ -108,7 +108,7 @@ private:
   {
     const MultiVector layer = projection.Solve(
       std::sqrt(L2Projection::Smoothing) / space_.UnitLength() * onBoundary, {}, job);
-    projection.accuracy = {}; // of the layer, which no one asked for
+    projection.accuracy = SolutionAccuracy::Exact(); // of the layer, which no one asked for
     const MultiVector lost = space_.ValuesAtPoints(layer.cwiseAbs(), job.threads);
     for (const auto& corner : mesh_.triangles)
     {
@@ -126,7 +126,8 @@ private:
     {
       weight_.push_back(std::max(Smallest, std::pow(Negligible / std::max(lost, Negligible), 4)));
     }
-    const SolutionAccuracy accuracy = projection_ ? projection_->accuracy : SolutionAccuracy();
+    const SolutionAccuracy accuracy =
+      projection_ ? projection_->accuracy : SolutionAccuracy::Exact();
     weighted_ = space_.WithWeightedMass(weight_, job.Part(0.0, 0.2));
     projection_ = std::make_unique<L2Projection>(*weighted_, options_, job.Part(0.2, 1.0));
     projection_->accuracy = accuracy;

@@ -225,7 +225,7 @@ std::vector<std::string> WarningsOf(const DistanceField& field, double tolerance
       "The heat has not settled everywhere: the direction of the distance may be wrong in places. "
       "Another Depth or Smoothing may help. The result is kept.");
   }
-  else if (!field.report.converged)
+  else if (field.report.end != SolveEnd::Converged)
   {
     sentences.push_back(WarningOf(field.report, tolerance));
   }

@@ -385,6 +385,26 @@ TEST(SolutionAccuracy, IsUnknownWithoutCoarserLevels)
   EXPECT_FALSE(solution.accuracy.isTrusted);
 }
 
+TEST(SolutionAccuracy, OfSeveralSolvesIsTheWorstOrUnknown)
+{
+  auto kept = SolutionAccuracy::Exact();
+  KeepWorse({ 0.1, 2.0, 0.01, true }, kept);
+  KeepWorse({ 0.3, 1.0, 0.02, true }, kept);
+  EXPECT_EQ(kept.discretization, 0.3);
+  EXPECT_EQ(kept.largest, 2.0);
+  EXPECT_EQ(kept.algebraic, 0.02);
+  EXPECT_TRUE(kept.isTrusted);
+  for (const bool isUnknownFirst : { false, true })
+  {
+    auto mixed = isUnknownFirst ? SolutionAccuracy() : kept;
+    KeepWorse(isUnknownFirst ? kept : SolutionAccuracy(), mixed);
+    EXPECT_TRUE(std::isnan(mixed.discretization));
+    EXPECT_TRUE(std::isnan(mixed.largest));
+    EXPECT_TRUE(std::isnan(mixed.algebraic));
+    EXPECT_FALSE(mixed.isTrusted);
+  }
+}
+
 TEST(SolutionAccuracy, StopsAtRoundingWhereCoarserLevelsAreExact)
 {
   // Coordinates with their own gradients are solutions on every level.

@@ -302,6 +302,63 @@ TEST(PatchLevel, RefusesTablesThatDoNotFit)
     RestoreGridFunctions(live.clipped, piecePatch, live.Finest(), live.support), InvalidInput);
 }
 
+/// Expects a refusal of the changed level that has these words.
+void ExpectRefused(const GridFunctions& live, const PatchLevel& finest, const std::string& words)
+{
+  try
+  {
+    ClippedMesh clipped = live.clipped;
+    clipped.links = FindLinks(clipped, {});
+    RestoreGridFunctions(std::move(clipped), live.piecePatch, finest, live.support);
+    ADD_FAILURE() << "accepted, although: " << words;
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+// Every number is in range. Levels from such tables would be solved, and converge.
+TEST(PatchLevel, RefusesFunctionsThatAreElsewhere)
+{
+  for (const bool aware : { false, true })
+  {
+    const GridFunctions live = SpaceOf(GeodesicSphere(6), 4, aware);
+    PatchLevel twice = live.Finest();
+    twice.dof[5][2] = twice.dof[5][3];
+    ExpectRefused(live, twice, "has function");
+    PatchLevel elsewhere = live.Finest();
+    elsewhere.dof[0][0] = elsewhere.dof.back()[0];
+    ExpectRefused(live, elsewhere, "another corner of the grid");
+    PatchLevel torn = live.Finest();
+    torn.dof[9][4] = torn.numberOfFunctions++;
+    ExpectRefused(live, torn, aware ? "share an edge" : "Two functions belong to one corner");
+    PatchLevel more = live.Finest();
+    ++more.numberOfFunctions;
+    ExpectRefused(live, more, "No patch has function");
+  }
+}
+
+TEST(PatchLevel, RefusesPatchesThatTearTheSurface)
+{
+  GridFunctions live = SpaceOf(Transform(TwoSheets(6, 0.02), { 1, 2, 3 }, 0.4), 4);
+  const PatchLevel& finest = live.Finest();
+  Index piece = 0; // one whose cell has a patch of the other sheet
+  const auto isInCellOf = [&](Index patch)
+  {
+    const Index own = live.piecePatch[piece];
+    return patch != own && patch >= 0 && patch < finest.NumberOfPatches() &&
+           finest.cell[patch] == finest.cell[own];
+  };
+  while (!isInCellOf(live.piecePatch[piece] + 1))
+  {
+    ++piece;
+    ASSERT_LT(piece, live.clipped.NumberOfPieces());
+  }
+  ++live.piecePatch[piece];
+  ExpectRefused(live, finest, "share an edge");
+}
+
 // A corner that reaches 1e-6 of a cell into the next cell makes a sliver there. The sliver must not
 // create functions.
 TEST(PatchLevel, SliversJoinTheirNeighbours)

@@ -120,6 +120,29 @@ double LargestRounding(
   return SmallestPatchArea + 4.0 * RoundingOf(data) * largest / clipped.grid.spacing;
 }
 
+/// Throws for a grid that is smaller than the mesh. If it is tiny, the tolerance of
+/// RequireInsideCells has no bound.
+void RequireGridAround(const Grid& grid, const TriangleMesh& mesh, double rounding)
+{
+  for (const auto& triangle : mesh.triangles)
+  {
+    for (const Id corner : triangle)
+    {
+      const Vec3& point = mesh.points[corner];
+      const double outside = (point - grid.origin).cwiseAbs().maxCoeff() -
+                             2.0 * grid.spacing * grid.CellsPerSide() -
+                             rounding * point.cwiseAbs().maxCoeff();
+      if (!(outside <= 0.0))
+      {
+        throw InvalidInput("The grid of 'GridOrigin', 'GridSpacing' and 'GridDepth' does not "
+                           "reach point " +
+                           std::to_string(corner) +
+                           ": the mesh was moved or changed after it was clipped. Clip it again.");
+      }
+    }
+  }
+}
+
 void RequireInsideCells(const GivenCells& given, const TriangleMesh& mesh, double rounding)
 {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -189,11 +212,14 @@ bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
   return true;
 }
 
+/// Returns the number of functions. It is at most eight for each patch, so that a damaged number
+/// never takes all memory.
 Index NumberOfFunctionsIn(vtkFieldData* fields)
 {
-  constexpr Id Limit = Id(1) << 31;
-  return static_cast<Index>(
-    IntegerIn(RequireArray(fields, NumberOfBasisFunctionsName, 1, 1), 0, 0, Limit));
+  constexpr Id Limit = std::numeric_limits<Index>::max();
+  const Id patches = RequireArray(fields, PatchCellIdName, 1, -1)->GetNumberOfTuples();
+  return static_cast<Index>(IntegerIn(RequireArray(fields, NumberOfBasisFunctionsName, 1, 1), 0, 0,
+    std::min(Limit, FunctionsPerPatch * patches) + 1));
 }
 
 PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
@@ -217,6 +243,22 @@ PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
     }
   }
   return finest;
+}
+
+GridFunctions RestoreFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
+  FunctionSupport support, const Progress& progress)
+{
+  try
+  {
+    return RestoreGridFunctions(
+      std::move(clipped), std::move(piecePatch), std::move(finest), support, progress);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput("The arrays 'PatchBasisIds', 'PatchCellId' and 'PatchId' do not fit the "
+                       "surface. Run the basis filter again instead of editing its output. " +
+                       std::string(error.what()));
+  }
 }
 
 SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress)
@@ -246,7 +288,7 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
                                     ? FunctionSupport::ConnectivityAware
                                     : FunctionSupport::Plain;
   return MakeSurfaceBasis(mesh.triangles,
-    RestoreGridFunctions(std::move(clipped), std::move(piecePatch), std::move(finest), support,
+    RestoreFunctions(std::move(clipped), std::move(piecePatch), std::move(finest), support,
       progress.Part(0.6, 1.0)),
     WeldsCoincidentPoints(data));
 }
@@ -255,11 +297,12 @@ std::vector<Id> ReadSourceCells(vtkPolyData* data, const InputMesh& mesh)
 {
   vtkDataArray* array =
     RequireArray(data->GetCellData(), SourceCellIdName, 1, data->GetNumberOfCells());
+  constexpr Id Limit = Id(1) << 53; // OnSourceMesh knows the cells of the source
   std::vector<Id> source;
   source.reserve(mesh.sourceCell.size());
   for (const Id cell : mesh.sourceCell)
   {
-    source.push_back(static_cast<Id>(array->GetComponent(cell, 0)));
+    source.push_back(IntegerIn(array, cell, 0, Limit));
   }
   return source;
 }
@@ -284,6 +327,7 @@ GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh)
     given.ofTriangle.push_back(
       given.cells[IntegerIn(octreeCell, cell, 0, static_cast<Id>(given.cells.size()))]);
   }
+  RequireGridAround(given.grid, *mesh.triangles, RoundingOf(data));
   RequireInsideCells(given, *mesh.triangles, RoundingOf(data));
   return given;
 }

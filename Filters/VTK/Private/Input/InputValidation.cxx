@@ -2,13 +2,50 @@
 
 #include "Base/Errors.h"
 
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <string>
 
 namespace gridfem
 {
+namespace
+{
+
+void RequireSound(vtkCellArray* cells, const char* kind)
+{
+  if (cells && !cells->IsValid())
+  {
+    throw InvalidInput(std::string("The ") + kind +
+                       " of the input are damaged: their offsets must begin at 0, never "
+                       "decrease, and end at the number of corners.");
+  }
+}
+
+void RequireExistingPoints(vtkCellArray* cells, vtkIdType points)
+{
+  vtkDataArray* const corners = cells->GetConnectivityArray();
+  if (cells->GetNumberOfConnectivityIds() == 0)
+  {
+    return;
+  }
+  double range[2];
+  corners->GetRange(range, 0);
+  if (!(range[0] >= 0.0 && range[1] < static_cast<double>(points)))
+  {
+    throw InvalidInput("A cell of the input uses point " +
+                       std::to_string(static_cast<Id>(range[0] < 0.0 ? range[0] : range[1])) +
+                       ", but the input has " + std::to_string(points) +
+                       " points. Clean the mesh first.");
+  }
+}
+
+} // namespace
 
 bool IsEmpty(vtkDataSet* input)
 {
@@ -35,6 +72,25 @@ void RequireNoVolume(vtkDataSet* piece)
         "The input is a volume mesh in pieces, on several ranks or in blocks taken as one. The "
         "faces between pieces would count as surface. Apply Ghost Cells (Merge Blocks) and "
         "Extract Surface first.");
+    }
+  }
+}
+
+void RequireSoundCells(vtkDataSet* input)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(input))
+  {
+    RequireSound(surface->GetVerts(), "vertices");
+    RequireSound(surface->GetLines(), "lines");
+    RequireSound(surface->GetPolys(), "polygons");
+    RequireSound(surface->GetStrips(), "triangle strips");
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    RequireSound(grid->GetCells(), "cells");
+    if (grid->GetCells())
+    {
+      RequireExistingPoints(grid->GetCells(), grid->GetNumberOfPoints());
     }
   }
 }

@@ -17,6 +17,11 @@ bool IsEmpty(vtkDataSet* input);
 /// surface of its own. The data set may be null.
 void RequireNoVolume(vtkDataSet* piece);
 
+/// Throws InvalidInput for cells whose offsets and corners do not fit together. The cells of a
+/// vtkPolyData may still name points that do not exist. The cells of a vtkUnstructuredGrid may not,
+/// because VTK reads them unchecked. The data set may be null.
+void RequireSoundCells(vtkDataSet* input);
+
 } // namespace gridfem
 
 #endif

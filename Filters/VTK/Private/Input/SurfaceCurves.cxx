@@ -36,6 +36,12 @@ std::vector<std::vector<Vec3>> ReadLines(vtkDataSet* data)
     std::vector<Vec3> line;
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
+      if (ids->GetId(k) < 0 || ids->GetId(k) >= data->GetNumberOfPoints())
+      {
+        throw InvalidInput("Sources: a line uses point " + std::to_string(ids->GetId(k)) +
+                           ", but there are " + std::to_string(data->GetNumberOfPoints()) +
+                           " points.");
+      }
       line.emplace_back();
       data->GetPoint(ids->GetId(k), line.back().data());
       if (!line.back().allFinite())

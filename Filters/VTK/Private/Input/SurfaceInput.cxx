@@ -1,5 +1,7 @@
 #include "Input/SurfaceInput.h"
 
+#include "Input/InputValidation.h"
+
 #include "Base/Errors.h"
 
 #include "vtkDataSet.h"
@@ -17,6 +19,10 @@ SurfaceInput::~SurfaceInput() = default;
 
 vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numberOfPorts)
 {
+  for (int port = 1; port < numberOfPorts; ++port)
+  {
+    RequireSoundCells(vtkDataSet::GetData(inputs[port]));
+  }
   vtkDataSet* data = vtkDataSet::GetData(inputs[0]);
   if (!data || this->Of(data) == data)
   {
@@ -32,6 +38,7 @@ vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numbe
 
 vtkPolyData* SurfaceInput::Of(vtkDataSet* data)
 {
+  RequireSoundCells(data);
   if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
     return surface;

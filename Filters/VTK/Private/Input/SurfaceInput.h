@@ -25,10 +25,11 @@ public:
 
   /// Returns the inputs, with the surface on port 0.
   /// @param inputs  one vector per port; they have to live as long as the result is used
-  /// Throws InvalidInput for a data set without a surface.
+  /// Throws InvalidInput for a data set without a surface, and for damaged cells on any port.
   vtkInformationVector** Of(vtkInformationVector** inputs, int numberOfPorts);
 
   /// Returns the surface of a data set. vtkPolyData is its own surface. Empty if there is none.
+  /// Throws InvalidInput for damaged cells.
   vtkPolyData* Of(vtkDataSet* data);
 
   /// Frees the surface.

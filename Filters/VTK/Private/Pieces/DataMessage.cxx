@@ -17,6 +17,7 @@
 #include "vtkTypeInt64Array.h"
 
 #include <cstdint>
+#include <stdexcept>
 
 namespace gridfem
 {
@@ -112,8 +113,27 @@ void DataMessage::PutBytes(const void* bytes, std::size_t count)
   bytes_.insert(bytes_.end(), first, first + count);
 }
 
+void DataMessage::RequireLeft(double bytes) const
+{
+  if (!(bytes >= 0.0 && bytes <= static_cast<double>(bytes_.size() - taken_)))
+  {
+    throw std::runtime_error("A message between ranks is damaged: what it announces does not fit "
+                             "into the " +
+                             std::to_string(bytes_.size() - taken_) + " bytes that are left.");
+  }
+}
+
+template<class Number>
+Number DataMessage::TakeCount(std::size_t bytesOfEach)
+{
+  const auto count = this->Take<Number>();
+  this->RequireLeft(static_cast<double>(count) * static_cast<double>(bytesOfEach));
+  return count;
+}
+
 void DataMessage::TakeBytes(void* bytes, std::size_t count)
 {
+  this->RequireLeft(static_cast<double>(count));
   if (count > 0)
   {
     std::memcpy(bytes, bytes_.data() + taken_, count);
@@ -129,7 +149,7 @@ void DataMessage::PutText(const std::string& text)
 
 std::string DataMessage::TakeText()
 {
-  std::string text(this->Take<std::int64_t>(), ' ');
+  std::string text(this->TakeCount<std::int64_t>(1), ' ');
   this->TakeBytes(&text[0], text.size());
   return text;
 }
@@ -145,7 +165,7 @@ void DataMessage::PutTexts(const std::vector<std::string>& texts)
 
 std::vector<std::string> DataMessage::TakeTexts()
 {
-  std::vector<std::string> texts(this->Take<std::int64_t>());
+  std::vector<std::string> texts(this->TakeCount<std::int64_t>(sizeof(std::int64_t)));
   for (std::string& text : texts)
   {
     text = this->TakeText();
@@ -161,7 +181,7 @@ void DataMessage::PutNumbers(const std::vector<double>& numbers)
 
 std::vector<double> DataMessage::TakeNumbers()
 {
-  std::vector<double> numbers(this->Take<std::int64_t>());
+  std::vector<double> numbers(this->TakeCount<std::int64_t>(sizeof(double)));
   this->TakeBytes(numbers.data(), numbers.size() * sizeof(double));
   return numbers;
 }
@@ -204,11 +224,22 @@ vtkSmartPointer<vtkAbstractArray> DataMessage::TakeArray()
     return array;
   }
   array.TakeReference(vtkAbstractArray::CreateArray(type == VTK_BIT ? VTK_UNSIGNED_CHAR : type));
+  if (!CanTravel(array))
+  {
+    throw std::runtime_error(
+      "A message between ranks is damaged: no array has the type " + std::to_string(type) + ".");
+  }
   const std::string name = this->TakeText();
   array->SetName(name.empty() ? nullptr : name.c_str());
   const int components = this->Take<int>();
+  const auto tuples = this->Take<vtkIdType>();
+  const bool isOfNumbers = vtkDataArray::SafeDownCast(array) != nullptr;
+  const std::size_t bytesOfEach = isOfNumbers ? array->GetDataTypeSize() : sizeof(std::int64_t);
+  this->RequireLeft(components < 1 || tuples < 0 ? -1.0
+                                                 : static_cast<double>(tuples) * components *
+                                                     static_cast<double>(bytesOfEach));
   array->SetNumberOfComponents(components);
-  SetTuples(array, this->Take<vtkIdType>());
+  SetTuples(array, tuples);
   if (this->Take<bool>())
   {
     for (int c = 0; c < components; ++c)
@@ -216,17 +247,22 @@ vtkSmartPointer<vtkAbstractArray> DataMessage::TakeArray()
       array->SetComponentName(c, this->TakeText().c_str());
     }
   }
+  this->TakeValues(array);
+  return array;
+}
+
+void DataMessage::TakeValues(vtkAbstractArray* array)
+{
   if (vtkDataArray* numbers = vtkDataArray::SafeDownCast(array))
   {
     this->TakeBytes(numbers->GetVoidPointer(0), NumberOfBytes(numbers));
-    return array;
+    return;
   }
   vtkStringArray* texts = vtkStringArray::SafeDownCast(array);
   for (vtkIdType k = 0; k < texts->GetNumberOfValues(); ++k)
   {
     texts->SetValue(k, this->TakeText());
   }
-  return array;
 }
 
 void DataMessage::PutArrays(vtkFieldData* arrays, vtkIdType tuples)
@@ -258,7 +294,10 @@ void DataMessage::TakeArrays(vtkFieldData* arrays)
   const int count = this->Take<int>();
   for (int k = 0; k < count; ++k)
   {
-    arrays->AddArray(this->TakeArray());
+    if (const auto array = this->TakeArray())
+    {
+      arrays->AddArray(array);
+    }
   }
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
   for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
@@ -297,6 +336,9 @@ vtkSmartPointer<vtkCellArray> DataMessage::TakeCells()
   {
     return cells;
   }
+  const double bytes = isLong ? sizeof(vtkTypeInt64) : sizeof(vtkTypeInt32);
+  this->RequireLeft(
+    count < 0 || corners < 0 ? -1.0 : (static_cast<double>(count) + 1.0 + corners) * bytes);
   const auto take = [&](auto offsets, auto connectivity)
   {
     this->TakeBytes(offsets->GetPointer(0), NumberOfBytes(offsets));
@@ -333,7 +375,12 @@ vtkSmartPointer<vtkPolyData> DataMessage::TakeSurface()
   if (const auto coordinates = this->TakeArray())
   {
     vtkNew<vtkPoints> points;
-    points->SetData(vtkDataArray::SafeDownCast(coordinates));
+    auto* numbers = vtkDataArray::SafeDownCast(coordinates);
+    if (!numbers || numbers->GetNumberOfComponents() != 3)
+    {
+      throw std::runtime_error("A message between ranks is damaged: points have no coordinates.");
+    }
+    points->SetData(numbers);
     surface->SetPoints(points);
   }
   surface->SetVerts(this->TakeCells());

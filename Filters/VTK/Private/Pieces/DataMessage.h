@@ -21,7 +21,8 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// A message. Its parts come out in the order in which they were put in.
+/// A message. Its parts come out in the order in which they were put in. Taking throws
+/// std::runtime_error if the message ends before, or names sizes that do not fit it.
 class DataMessage
 {
 public:
@@ -72,6 +73,11 @@ public:
 private:
   void PutBytes(const void* bytes, std::size_t count);
   void TakeBytes(void* bytes, std::size_t count);
+  /// Takes the number of things that follow, each of at least so many bytes.
+  template<class Number>
+  Number TakeCount(std::size_t bytesOfEach);
+  void RequireLeft(double bytes) const;
+  void TakeValues(vtkAbstractArray* array);
   void PutCells(vtkCellArray* cells);
   vtkSmartPointer<vtkCellArray> TakeCells();
 

@@ -1,6 +1,7 @@
 #include "Pieces/GatheredSurface.h"
 
 #include "Input/CellCorners.h"
+#include "Input/InputValidation.h"
 #include "Pieces/DataMessage.h"
 #include "Pieces/PieceJoiner.h"
 #include "Pipeline/InputSurface.h"
@@ -114,6 +115,7 @@ void AddSurface(StageKey& key, vtkPolyData* surface)
 
 void RequireGoodCells(vtkPolyData* surface)
 {
+  RequireSoundCells(surface);
   const vtkIdType points = surface->GetNumberOfPoints();
   vtkIdType first = 0;
   vtkNew<vtkIdList> storage;
