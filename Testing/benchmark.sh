@@ -60,7 +60,10 @@ CompareRanks()
   awk -F ' *[|] *' -v name="$1" '
     { seconds[$4] = $7 + $8; iterations[$4] = $6; memory[$4] = $10 }
     END {
-      if (!seconds[2] || !seconds["Core"]) exit
+      if (!seconds[2] || !seconds["Core"]) {
+        print "There is no row of two ranks, or none of Core" > "/dev/stderr"
+        exit 1
+      }
       printf "RATIO two_ranks_seconds_over_two_threads_%s %.4g <= 1.2\n", name, seconds[2] / seconds["Core"]
       printf "RATIO eight_ranks_memory_over_one_%s %.4g <= 0.25\n", name, memory[8] / memory[1]
       printf "RATIO eight_ranks_iterations_over_one_%s %.4g <= 1.3\n", name, iterations[8] / iterations[1]

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 namespace
 {
@@ -27,16 +27,18 @@ constexpr int Runs = 2; // timed runs; the first run touches new memory
 
 std::vector<std::filesystem::path> MeshFiles()
 {
-  std::vector<std::filesystem::path> files;
-  if (const char* folder = std::getenv("GRIDFEM_DATA_DIR"))
+  const std::string folder = testing::RealMesh("."); // empty if there is none
+  if (folder.empty())
   {
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    throw std::runtime_error("There is no folder of real meshes: set GRIDFEM_DATA_DIR.");
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".ply" || extension == ".stl" || extension == ".STL")
     {
-      const std::string extension = entry.path().extension().string();
-      if (extension == ".ply" || extension == ".stl" || extension == ".STL")
-      {
-        files.push_back(entry.path());
-      }
+      files.push_back(entry.path());
     }
   }
   std::sort(files.begin(), files.end());

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace
 {
@@ -205,7 +206,8 @@ private:
   std::vector<Vec3> positions_;
 };
 
-/// CHOLMOD's numeric factorization and solution of three columns for a changed matrix of the hats.
+/// CHOLMOD's numeric factorization and solution of three columns for a changed matrix of the hats:
+/// the least of five changes after one that touches its memory for the first time.
 double CholmodSecondsPerChange(const TriangleMesh& mesh)
 {
   SetBlasThreads(Threads);
@@ -214,10 +216,15 @@ double CholmodSecondsPerChange(const TriangleMesh& mesh)
   Cholmod cholmod;
   cholmod.Analyse(A);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Ones(A.rows(), 3);
-  const Stopwatch watch;
-  cholmod.Factor(A);
-  cholmod.Solve(b);
-  return watch.Seconds();
+  double least = std::numeric_limits<double>::infinity();
+  for (int change = 0; change < 6; ++change)
+  {
+    const Stopwatch watch;
+    cholmod.Factor(A);
+    cholmod.Solve(b);
+    least = change == 0 ? least : std::min(least, watch.Seconds());
+  }
+  return least;
 }
 
 TriangleMesh MeshOf(const Subject& subject)

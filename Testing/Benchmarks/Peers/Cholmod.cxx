@@ -70,6 +70,12 @@ void Cholmod::Analyse(const SymmetricMatrix& A)
   state_->factor = cholmod_analyze(&view, &state_->common);
 }
 
+void Cholmod::AnalyseAs(const Cholmod& other)
+{
+  cholmod_free_factor(&state_->factor, &state_->common);
+  state_->factor = cholmod_copy_factor(other.state_->factor, &state_->common);
+}
+
 void Cholmod::Factor(const SymmetricMatrix& A)
 {
   cholmod_sparse view = View(A);
