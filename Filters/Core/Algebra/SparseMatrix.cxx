@@ -192,6 +192,23 @@ template void ResidualPart(const BasicSparseMatrix<float>&, const Vectors<float>
 template void ResidualPart(const SparseMatrix&, const MultiVector&, const MultiVector&, Index,
   MultiVector&, Eigen::ArrayXd*, int);
 
+void Combine(double a, const SparseMatrix& A, double b, const SparseMatrix& B, SparseMatrix& result,
+  int threads)
+{
+  if (result.value.empty() || result.rows != A.rows || result.NonZeros() != A.NonZeros())
+  {
+    result = B;
+  }
+  ParallelRanges(result.NonZeros(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        result.value[k] = a * A.value[k] + b * B.value[k];
+      }
+    });
+}
+
 MultiVector RowSums(const SparseMatrix& A, int threads)
 {
   MultiVector sums;

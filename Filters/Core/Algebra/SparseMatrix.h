@@ -75,6 +75,11 @@ template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
   Index ghosts, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);
 
+/// Computes a A + b B for matrices with the same pattern, in place if `result` has it. Same bits
+/// for any number of threads.
+void Combine(double a, const SparseMatrix& A, double b, const SparseMatrix& B, SparseMatrix& result,
+  int threads = 0);
+
 /// Returns A times a vector of ones, as one column.
 MultiVector RowSums(const SparseMatrix& A, int threads = 0);
 

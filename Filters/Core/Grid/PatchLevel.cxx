@@ -169,7 +169,8 @@ std::vector<PatchLevel> BuildLevels(
   return levels;
 }
 
-std::vector<Index> FunctionComponents(const PatchLevel& level, int threads)
+template<int Functions>
+std::vector<Index> FunctionComponents(const BasicPatchLevel<Functions>& level, int threads)
 {
   UnionFind sets(level.numberOfFunctions, threads);
   ParallelRanges(level.NumberOfPatches(), threads,
@@ -178,9 +179,9 @@ std::vector<Index> FunctionComponents(const PatchLevel& level, int threads)
       for (Id patch = begin; patch < end; ++patch)
       {
         const auto& dof = level.dof[patch];
-        for (int corner = 1; corner < FunctionsPerPatch; ++corner)
+        for (int k = 1; k < Functions; ++k)
         {
-          sets.Unite(dof[0], dof[corner]);
+          sets.Unite(dof[0], dof[k]);
         }
       }
     });
@@ -188,5 +189,8 @@ std::vector<Index> FunctionComponents(const PatchLevel& level, int threads)
   const Array<Index> number = NumberSets(sets, count, threads);
   return { number.begin(), number.end() };
 }
+
+template std::vector<Index> FunctionComponents(const PatchLevel&, int);
+template std::vector<Index> FunctionComponents(const SmoothLevel&, int);
 
 } // namespace gridfem

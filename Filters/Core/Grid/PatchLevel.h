@@ -1,5 +1,5 @@
-// The one data structure: a level of the hierarchy is an eight-node element mesh [DESIGN §2]. A
-// patch is a connected piece of the surface inside one cell. It touches exactly eight functions.
+// The one data structure: a level of the hierarchy is an element mesh [DESIGN §2]. A patch is a
+// connected piece of the surface inside one cell. It touches a fixed number of functions.
 // The plain space and the connectivity-aware space differ only in their lists of patches. [T ch. 6]
 #ifndef GridFEM_PatchLevel_h
 #define GridFEM_PatchLevel_h
@@ -15,17 +15,25 @@ namespace gridfem
 /// Number of trilinear B-splines that do not vanish inside a cell: one per corner, x fastest.
 constexpr int FunctionsPerPatch = 8;
 
-struct PatchLevel
+/// Number of quadratic B-splines that do not vanish inside a cell: one for each cell around it and
+/// for the cell itself, x fastest. See SmoothLevels.h.
+constexpr int SmoothFunctionsPerPatch = 27;
+
+template<int Functions>
+struct BasicPatchLevel
 {
   int depth = 0;
-  std::vector<MortonKey> cell;                           // per patch, ascending
-  std::vector<std::array<Index, FunctionsPerPatch>> dof; // per patch, corner order x fastest
-  Array<Index> parent;                                   // per patch; empty on the coarsest level
+  std::vector<MortonKey> cell;                   // per patch, ascending
+  std::vector<std::array<Index, Functions>> dof; // per patch, x fastest
+  Array<Index> parent;                           // per patch; empty on the coarsest level
   Index numberOfFunctions = 0;
 
   Id NumberOfPatches() const { return static_cast<Id>(cell.size()); }
   int Octant(Id patch) const { return static_cast<int>(cell[patch] & 7); }
 };
+
+using PatchLevel = BasicPatchLevel<FunctionsPerPatch>;
+using SmoothLevel = BasicPatchLevel<SmoothFunctionsPerPatch>;
 
 /// Decides which corners of patches share one function.
 enum class FunctionSupport
@@ -66,7 +74,8 @@ std::vector<PatchLevel> BuildLevels(
 
 /// Returns the connected component of every function: the functions of a patch are connected.
 /// Components are numbered 0, 1, ... in the order of their lowest function.
-std::vector<Index> FunctionComponents(const PatchLevel& level, int threads = 0);
+template<int Functions>
+std::vector<Index> FunctionComponents(const BasicPatchLevel<Functions>& level, int threads = 0);
 
 } // namespace gridfem
 

@@ -3,6 +3,7 @@
 
 #include "Algebra/FillRows.h"
 #include "Base/Prefetch.h"
+#include "Integrals/SmoothElements.h"
 
 #include <algorithm>
 #include <array>
@@ -14,44 +15,53 @@ namespace gridfem
 namespace
 {
 
-/// Number of grid corners around a grid corner, including itself. NumberAround gives the number of
-/// corner j of a cell as seen from corner i.
-constexpr int CornersAround = 27;
-
-constexpr int NumberAround(int i, int j)
+/// The places of a cell's functions: `Side` of them along each axis, x fastest.
+template<int Functions>
+struct FunctionLattice
 {
-  int number = 0;
-  for (int axis = 2; axis >= 0; --axis)
+  static constexpr int Side = Functions == FunctionsPerPatch ? 2 : 3;
+  static constexpr int SideAround = 2 * Side - 1;
+  /// Number of places of functions that share a cell with a function, including its own.
+  static constexpr int PlacesAround = SideAround * SideAround * SideAround;
+  static_assert(Side * Side * Side == Functions);
+
+  /// The number of the place of function j of a cell as seen from function i.
+  static constexpr int NumberAround(int i, int j)
   {
-    number = 3 * number + ((j >> axis) & 1) - ((i >> axis) & 1) + 1;
+    int number = 0;
+    for (int stride = Side * Side; stride > 0; stride /= Side)
+    {
+      number = SideAround * number + j / stride % Side - i / stride % Side + Side - 1;
+    }
+    return number;
   }
-  return number;
-}
-
-/// A number for every two corners of a cell.
-struct CornerTable
-{
-  int number[FunctionsPerPatch][FunctionsPerPatch];
 };
 
-template<class Number>
-constexpr CornerTable MakeCornerTable(Number number)
+/// A number for every two functions of a cell.
+template<int Functions>
+struct FunctionTable
 {
-  CornerTable table{};
-  for (int i = 0; i < FunctionsPerPatch; ++i)
+  int number[Functions][Functions];
+
+  template<class Number>
+  explicit constexpr FunctionTable(Number ofPair) : number()
   {
-    for (int j = 0; j < FunctionsPerPatch; ++j)
+    for (int i = 0; i < Functions; ++i)
     {
-      table.number[i][j] = number(i, j);
+      for (int j = 0; j < Functions; ++j)
+      {
+        number[i][j] = ofPair(i, j);
+      }
     }
   }
-  return table;
-}
+};
 
-constexpr CornerTable Around = MakeCornerTable(NumberAround);
+template<int Functions>
+constexpr FunctionTable<Functions> Around(FunctionLattice<Functions>::NumberAround);
 
 /// Packed positions of the entries of each row of an element matrix.
-constexpr CornerTable Rows = MakeCornerTable(PackedIndex);
+template<int Functions>
+constexpr FunctionTable<Functions> Rows(PackedIndex<Functions>);
 
 /// Sorts distinct numbers by counting the smaller numbers for each. This needs no branch to be
 /// predicted.
@@ -79,18 +89,19 @@ void SortFew(Index* begin, Index* end)
 }
 
 /// Appends the distinct functions that share a patch with function f, ascending. Most surrounding
-/// grid corners have only one such function, so most repetitions are recognized by their corner.
-void AppendNeighbours(
-  const PatchLevel& level, const FunctionPlaces& places, Index f, Array<Index>& columns)
+/// places have only one such function, so most repetitions are recognized by their place.
+template<int Functions>
+void AppendNeighbours(const BasicPatchLevel<Functions>& level, const FunctionPlaces& places,
+  Index f, Array<Index>& columns)
 {
   const std::size_t first = columns.size();
-  std::array<Index, CornersAround> known;
+  std::array<Index, FunctionLattice<Functions>::PlacesAround> known;
   known.fill(-1);
   for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
   {
-    const auto& dof = level.dof[places.item[k] / FunctionsPerPatch];
-    const int* const around = Around.number[places.item[k] % FunctionsPerPatch];
-    for (int j = 0; j < FunctionsPerPatch; ++j)
+    const auto& dof = level.dof[places.item[k] / Functions];
+    const int* const around = Around<Functions>.number[places.item[k] % Functions];
+    for (int j = 0; j < Functions; ++j)
     {
       Index& here = known[around[j]];
       const bool isFirst = here < 0;
@@ -107,13 +118,16 @@ void AppendNeighbours(
 }
 
 /// Computes the rows of a level matrix as sums over elements.
+template<int Functions>
 struct ElementSum
 {
-  const PatchLevel& level;
+  using Matrix = BasicElementMatrix<Functions>;
+
+  const BasicPatchLevel<Functions>& level;
   const FunctionPlaces& places;
-  const ElementMatrix* mass; // null if its factor is 0
+  const Matrix* mass; // null if its factor is 0
   double a;
-  const ElementMatrix* stiffness; // null if its factor is 0
+  const Matrix* stiffness; // null if its factor is 0
   double b;
 
   /// Prefetches the matrices of the last patch of a row. Earlier rows may not have used this patch.
@@ -124,8 +138,8 @@ struct ElementSum
     {
       return;
     }
-    const Index patch = places.item[end - 1] / FunctionsPerPatch;
-    for (const ElementMatrix* const matrices : { mass, stiffness })
+    const Index patch = places.item[end - 1] / Functions;
+    for (const Matrix* const matrices : { mass, stiffness })
     {
       if (matrices)
       {
@@ -147,17 +161,16 @@ struct ElementSum
     }
     for (Index k = places.begin[row]; k < places.begin[row + 1]; ++k)
     {
-      const Index patch = places.item[k] / FunctionsPerPatch;
-      const int* entry = Rows.number[places.item[k] % FunctionsPerPatch];
-      std::array<double, FunctionsPerPatch> part; // separate from the sums, so that SIMD lanes
-                                                  // compute it
-      for (int j = 0; j < FunctionsPerPatch; ++j)
+      const Index patch = places.item[k] / Functions;
+      const int* entry = Rows<Functions>.number[places.item[k] % Functions];
+      std::array<double, Functions> part; // separate from the sums, so that SIMD lanes compute it
+      for (int j = 0; j < Functions; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;
         const double l = stiffness ? b * stiffness[patch][entry[j]] : 0.0;
         part[j] = m + l;
       }
-      for (int j = 0; j < FunctionsPerPatch; ++j)
+      for (int j = 0; j < Functions; ++j)
       {
         value[position[level.dof[patch][j]]] += part[j];
       }
@@ -165,12 +178,13 @@ struct ElementSum
   }
 };
 
-/// Appends the row of a function that is a weighted sum of the eight functions of a patch.
-void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const double* weight,
-  Array<Index>& columns, Array<double>& values)
+/// Appends the row of a function that is a weighted sum of the functions of a patch.
+template<std::size_t Functions>
+void AppendRow(const std::array<Index, Functions>& dof, const double* weight, Array<Index>& columns,
+  Array<double>& values)
 {
-  std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
-  for (int p = 0; p < FunctionsPerPatch; ++p)
+  std::array<std::pair<Index, double>, Functions> entries;
+  for (std::size_t p = 0; p < Functions; ++p)
   {
     entries[p] = { dof[p], weight[p] };
   }
@@ -187,13 +201,16 @@ void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const double* we
 
 } // namespace
 
-FunctionPlaces PlacesOfFunctions(const PatchLevel& level, int threads)
+template<int Functions>
+FunctionPlaces PlacesOfFunctions(const BasicPatchLevel<Functions>& level, int threads)
 {
   return GroupItems(level.dof.empty() ? nullptr : level.dof.front().data(),
-    FunctionsPerPatch * level.NumberOfPatches(), level.numberOfFunctions, threads);
+    Functions * level.NumberOfPatches(), level.numberOfFunctions, threads);
 }
 
-SparseMatrix BuildPattern(const PatchLevel& level, const FunctionPlaces& places, int threads)
+template<int Functions>
+SparseMatrix BuildPattern(
+  const BasicPatchLevel<Functions>& level, const FunctionPlaces& places, int threads)
 {
   SparseMatrix pattern;
   pattern.rows = pattern.columns = level.numberOfFunctions;
@@ -203,11 +220,13 @@ SparseMatrix BuildPattern(const PatchLevel& level, const FunctionPlaces& places,
   return pattern;
 }
 
-void AssembleValues(const PatchLevel& level, const FunctionPlaces& places,
-  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness, double b,
-  SparseMatrix& matrix, int threads)
+template<int Functions>
+void AssembleValues(const BasicPatchLevel<Functions>& level, const FunctionPlaces& places,
+  const Array<BasicElementMatrix<Functions>>& mass, double a,
+  const Array<BasicElementMatrix<Functions>>& stiffness, double b, SparseMatrix& matrix,
+  int threads)
 {
-  const ElementSum sum{ level, places, a != 0.0 ? mass.data() : nullptr, a,
+  const ElementSum<Functions> sum{ level, places, a != 0.0 ? mass.data() : nullptr, a,
     b != 0.0 ? stiffness.data() : nullptr, b };
   matrix.value.resize(matrix.NonZeros());
   const int team = NumberOfThreads(threads);
@@ -226,8 +245,9 @@ void AssembleValues(const PatchLevel& level, const FunctionPlaces& places,
   }
 }
 
-SparseMatrix BuildProlongation(
-  const PatchLevel& fine, const FunctionPlaces& places, const PatchLevel& coarse, int threads)
+template<int Functions>
+SparseMatrix BuildProlongation(const BasicPatchLevel<Functions>& fine, const FunctionPlaces& places,
+  const BasicPatchLevel<Functions>& coarse, int threads)
 {
   SparseMatrix prolongation;
   prolongation.rows = fine.numberOfFunctions;
@@ -240,13 +260,27 @@ SparseMatrix BuildProlongation(
         return;
       }
       const Index first = places.item[places.begin[row]];
-      const Index patch = first / FunctionsPerPatch;
-      const Index corner = first % FunctionsPerPatch;
+      const Index patch = first / Functions;
+      const Index number = first % Functions;
       const auto& dof = coarse.dof[fine.parent[patch]];
-      const auto& weights = ChildWeights(fine.Octant(patch))[corner];
+      const auto& weights = ChildWeights<Functions>(fine.Octant(patch))[number];
       AppendRow(dof, weights.data(), columns, values);
     });
   return prolongation;
 }
+
+template FunctionPlaces PlacesOfFunctions(const PatchLevel&, int);
+template FunctionPlaces PlacesOfFunctions(const SmoothLevel&, int);
+template SparseMatrix BuildPattern(const PatchLevel&, const FunctionPlaces&, int);
+template SparseMatrix BuildPattern(const SmoothLevel&, const FunctionPlaces&, int);
+template void AssembleValues(const PatchLevel&, const FunctionPlaces&, const Array<ElementMatrix>&,
+  double, const Array<ElementMatrix>&, double, SparseMatrix&, int);
+template void AssembleValues(const SmoothLevel&, const FunctionPlaces&,
+  const Array<SmoothElementMatrix>&, double, const Array<SmoothElementMatrix>&, double,
+  SparseMatrix&, int);
+template SparseMatrix BuildProlongation(
+  const PatchLevel&, const FunctionPlaces&, const PatchLevel&, int);
+template SparseMatrix BuildProlongation(
+  const SmoothLevel&, const FunctionPlaces&, const SmoothLevel&, int);
 
 } // namespace gridfem

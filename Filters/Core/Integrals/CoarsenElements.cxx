@@ -166,7 +166,8 @@ void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
     });
 }
 
-const OctantWeights& ChildWeights(int octant)
+template<>
+const OctantWeights& ChildWeights<FunctionsPerPatch>(int octant)
 {
   static const std::array<OctantWeights, 8> weights = MakeChildWeights();
   return weights[octant];

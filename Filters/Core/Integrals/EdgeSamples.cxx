@@ -3,8 +3,8 @@
 #include "Algebra/RowBuilder.h"
 #include "Grid/MeshEdges.h"
 #include "Grid/TriangleSides.h"
+#include "Integrals/CellBasis.h"
 #include "Integrals/QuadratureSamples.h"
-#include "Integrals/TrilinearBasis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,11 +177,11 @@ std::vector<double> Crossings(const Vec3& a, const Vec3& b)
 
 } // namespace
 
-EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
-  const std::vector<TriangleSegment>& segments)
+template<int Functions>
+EdgeSamples SampleSegments(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments)
 {
   const PiecesOfSegments pieces(space, mesh, segments);
-  const PatchLevel& level = space.Finest();
   EdgeSamples samples;
   RowBuilder rows;
   RowBuilder::Entries entries;
@@ -204,10 +204,10 @@ EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
         {
           continue;
         }
-        CornerValues value;
-        TrilinearValues(position - CellCorner(level.cell[patch]), value);
+        std::array<double, Functions> value;
+        BasisValues(position - CellCorner(level.cell[patch]), value);
         entries.clear();
-        for (int i = 0; i < FunctionsPerPatch; ++i)
+        for (int i = 0; i < Functions; ++i)
         {
           entries.emplace_back(level.dof[patch][i], value[i]);
         }
@@ -222,6 +222,11 @@ EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
   samples.rows = rows.Finish(level.numberOfFunctions);
   return samples;
 }
+
+template EdgeSamples SampleSegments(const GridFunctions&, const PatchLevel&, const TriangleMesh&,
+  const std::vector<TriangleSegment>&);
+template EdgeSamples SampleSegments(const GridFunctions&, const SmoothLevel&, const TriangleMesh&,
+  const std::vector<TriangleSegment>&);
 
 MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values)
 {

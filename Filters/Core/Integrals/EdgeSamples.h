@@ -12,8 +12,8 @@
 namespace gridfem
 {
 
-/// A point of a quadrature rule on [0, 1] that is exact up to degree 5. Functions of the grid are
-/// cubic along a line.
+/// A point of a quadrature rule on [0, 1] that is exact up to degree 5. Trilinear functions are
+/// cubic along a line. Quadratic B-splines have degree six, with small last terms.
 struct GaussPoint
 {
   double position;
@@ -22,7 +22,7 @@ struct GaussPoint
 constexpr GaussPoint GaussPoints[3] = { { 0.1127016653792583, 5.0 / 18.0 }, { 0.5, 8.0 / 18.0 },
   { 0.8872983346207417, 5.0 / 18.0 } };
 
-/// Samples on segments. They integrate a function of the space times a linear function exactly.
+/// Samples on segments. They integrate a trilinear function times a linear function exactly.
 struct EdgeSamples
 {
   std::vector<Index> edge;      // index of the segment that contains the sample, ascending
@@ -42,8 +42,15 @@ MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values
 /// surface, each process samples only its own pieces.
 /// Cost O(pieces + samples log pieces). Throws InvalidInput for a triangle that the mesh does not
 /// have.
-EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
-  const std::vector<TriangleSegment>& segments);
+/// @param level  functions on the finest patches of the space
+template<int Functions>
+EdgeSamples SampleSegments(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments);
+inline EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
+  const std::vector<TriangleSegment>& segments)
+{
+  return SampleSegments(space, space.Finest(), mesh, segments);
+}
 
 /// Returns the point of a segment at parameter t in [0, 1], in a triangle with corners a, b and c.
 inline Vec3 PointOfSegment(

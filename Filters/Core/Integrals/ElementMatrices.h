@@ -1,6 +1,6 @@
-// Element matrices: for each patch, 36 integrals of products of its eight functions. [T (4.1),
-// (4.2)]
-// In grid units, mass is in squared cell sides and stiffness is dimensionless.
+// Element matrices: for each patch, the integrals of products of its functions. Eight functions
+// have 36 such products. [T (4.1), (4.2)] In grid units, mass is in squared cell sides and
+// stiffness is dimensionless.
 #ifndef GridFEM_ElementMatrices_h
 #define GridFEM_ElementMatrices_h
 
@@ -18,19 +18,25 @@ constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
 
 /// Position of entry (row, column) in the packed upper triangle. The order of the arguments does
 /// not matter.
+template<int Functions = FunctionsPerPatch>
 constexpr int PackedIndex(int row, int column)
 {
-  return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
-                       : PackedIndex(column, row);
+  return row <= column ? row * Functions - row * (row - 1) / 2 + (column - row)
+                       : PackedIndex<Functions>(column, row);
 }
 
-using ElementMatrix = std::array<double, ElementEntries>;
+template<int Functions>
+using BasicElementMatrix = std::array<double, Functions*(Functions + 1) / 2>;
 
-struct ElementMatrices
+template<int Functions>
+struct BasicElementMatrices
 {
-  Array<ElementMatrix> mass;      // ∫ b_i b_j
-  Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j> tangential + s ∫ ∂n b_i ∂n b_j
+  Array<BasicElementMatrix<Functions>> mass; // ∫ b_i b_j
+  Array<BasicElementMatrix<Functions>> stiffness; // ∫ <∇b_i, ∇b_j> tangential + s ∫ ∂n b_i ∂n b_j
 };
+
+using ElementMatrix = BasicElementMatrix<FunctionsPerPatch>;
+using ElementMatrices = BasicElementMatrices<FunctionsPerPatch>;
 
 /// Selects the matrices that receive new values. The others stay unchanged.
 enum class ElementParts
@@ -70,11 +76,16 @@ void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
   const ElementMatrices& elements, ElementMatrices& result, int threads = 0,
   ElementParts parts = ElementParts::Both);
 
-/// The weights with which the corners of a parent cell give the values at the corners of its child
-/// in `octant`. The value at child corner c is Σ_p weights[c][p] times the value at parent corner
-/// p.
-using OctantWeights = std::array<std::array<double, FunctionsPerPatch>, FunctionsPerPatch>;
-const OctantWeights& ChildWeights(int octant);
+/// The weights with which the functions of a parent cell give the coefficients of its child's
+/// functions in `octant`. The coefficient of the child's function c is Σ_p weights[c][p] times the
+/// coefficient of the parent's function p.
+template<int Functions>
+using BasicOctantWeights = std::array<std::array<double, Functions>, Functions>;
+using OctantWeights = BasicOctantWeights<FunctionsPerPatch>;
+template<int Functions = FunctionsPerPatch>
+const BasicOctantWeights<Functions>& ChildWeights(int octant);
+template<>
+const OctantWeights& ChildWeights<FunctionsPerPatch>(int octant);
 
 } // namespace gridfem
 

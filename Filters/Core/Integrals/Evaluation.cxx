@@ -1,13 +1,13 @@
-// Evaluates functions. Every point lies in a patch, and a patch has eight coefficients.
+// Evaluates functions. Every point lies in a patch, and a patch has a fixed number of coefficients.
 #include "Integrals/Evaluation.h"
 
 #include "Algebra/RowBuilder.h"
 #include "Base/Grouping.h"
 #include "Base/Parallel.h"
 #include "Base/Prefetch.h"
+#include "Integrals/CellBasis.h"
 #include "Integrals/PatchShares.h"
 #include "Integrals/QuadratureSamples.h"
-#include "Integrals/TrilinearBasis.h"
 
 #include <algorithm>
 #include <string>
@@ -17,28 +17,28 @@ namespace gridfem
 namespace
 {
 
-void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficients)
+void CheckCoefficients(Index functions, const MultiVector& coefficients)
 {
-  if (coefficients.rows() != space.Finest().numberOfFunctions)
+  if (coefficients.rows() != functions)
   {
     throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
-                       std::to_string(space.Finest().numberOfFunctions) + " functions.");
+                       std::to_string(functions) + " functions.");
   }
 }
 
 /// Evaluates some columns at points [begin, end). Points without a patch get 0.
-template<int Width>
-void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoint,
-  const MultiVector& coefficients, Id first, Id begin, Id end, MultiVector& result)
+template<int Width, int Functions>
+void EvaluateColumns(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const Array<Index>& patchOfPoint, const MultiVector& coefficients, Id first, Id begin, Id end,
+  MultiVector& result)
 {
   constexpr Id Ahead = 8; // prefetch distance, because the coefficients of a patch may lie anywhere
                           // in memory
-  const PatchLevel& level = space.Finest();
-  CornerValues b;
+  std::array<double, Functions> b;
   for (Id point = begin; point < end; ++point)
   {
     const Id later = point + Ahead < end ? patchOfPoint[point + Ahead] : -1;
-    for (int i = 0; later >= 0 && i < FunctionsPerPatch; ++i)
+    for (int i = 0; later >= 0 && i < Functions; ++i)
     {
       Fetch(&coefficients(level.dof[later][i], first));
     }
@@ -46,8 +46,8 @@ void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoin
     const Id patch = patchOfPoint[point];
     if (patch >= 0)
     {
-      TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
-      for (int i = 0; i < FunctionsPerPatch; ++i)
+      BasisValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
+      for (int i = 0; i < Functions; ++i)
       {
         const double* const value = &coefficients(level.dof[patch][i], first);
         for (int c = 0; c < Width; ++c)
@@ -62,10 +62,11 @@ void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoin
 
 /// Evaluates all columns of a group of points before the next group, so that rows stay in the
 /// cache.
-MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
-  const MultiVector& coefficients, const Job& job)
+template<int Functions>
+MultiVector EvaluateAt(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const Array<Index>& patchOfPoint, const MultiVector& coefficients, const Job& job)
 {
-  CheckCoefficients(space, coefficients);
+  CheckCoefficients(level.numberOfFunctions, coefficients);
   MultiVector result(static_cast<Id>(patchOfPoint.size()), coefficients.cols());
   const Id pointsAtOnce = std::max<Id>(64, DefaultBlockSize / std::max<Id>(1, result.cols()));
   ParallelRanges(
@@ -76,28 +77,29 @@ MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPo
         [&](auto columns, Id first)
         {
           EvaluateColumns<decltype(columns)::value>(
-            space, patchOfPoint, coefficients, first, begin, end, result);
+            space, level, patchOfPoint, coefficients, first, begin, end, result);
         });
     },
     pointsAtOnce, job.progress);
   return result;
 }
 
-/// Returns ∫ ∇u over a piece in grid units. Gradients of trilinear functions are quadratic on the
-/// piece.
-void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& coefficients,
-  Eigen::Ref<Eigen::RowVectorXd> sum)
+/// Returns ∫ ∇u over a piece in grid units. On a piece, gradients of trilinear functions have
+/// degree two, and those of quadratic functions degree five.
+template<int Functions>
+void IntegrateGradient(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  Id piece, const MultiVector& coefficients, Eigen::Ref<Eigen::RowVectorXd> sum)
 {
-  const PatchLevel& level = space.Finest();
+  constexpr int Degree = Functions == FunctionsPerPatch ? 2 : 6;
   const Id patch = space.piecePatch[piece];
   const Vec3 normal = UnitNormal(space.clipped, piece);
   sum.setZero();
-  ForEachSample(space.clipped, piece, CellCorner(level.cell[patch]), TriangleRule(2),
+  ForEachSample(space.clipped, piece, CellCorner(level.cell[patch]), TriangleRule(Degree),
     [&](const Vec3& local, double weight)
     {
-      std::array<CornerValues, 3> derivative;
-      TrilinearGradients(local, derivative);
-      for (int i = 0; i < FunctionsPerPatch; ++i)
+      std::array<std::array<double, Functions>, 3> derivative;
+      BasisGradients(local, derivative);
+      for (int i = 0; i < Functions; ++i)
       {
         const Vec3 gradient(derivative[0][i], derivative[1][i], derivative[2][i]);
         const Vec3 tangential = weight * (gradient - normal.dot(gradient) * normal);
@@ -121,11 +123,11 @@ Vec3 DirectionOf(const Vec3& v)
 
 /// Returns the sum of share(∫ ∇u, area) over the pieces of each triangle, divided by the triangle's
 /// area. The integral and the area of a piece are in grid units.
-template<class Share>
-MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiVector& coefficients,
-  const Job& job, Share&& share)
+template<int Functions, class Share>
+MultiVector MeansOfPieces(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  Id triangles, const MultiVector& coefficients, const Job& job, Share&& share)
 {
-  CheckCoefficients(space, coefficients);
+  CheckCoefficients(level.numberOfFunctions, coefficients);
   const ClippedMesh& clipped = space.clipped;
   const Groups pieces =
     GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, job.threads);
@@ -140,7 +142,7 @@ MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiV
         double area = 0.0;
         for (Index k = pieces.begin[t]; k < pieces.begin[t + 1]; ++k)
         {
-          IntegrateGradient(space, pieces.item[k], coefficients, integral);
+          IntegrateGradient(space, level, pieces.item[k], coefficients, integral);
           const double ofPiece = PieceArea(clipped, pieces.item[k]);
           for (Id c = 0; c < mean.cols(); c += 3)
           {
@@ -159,10 +161,11 @@ MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiV
 
 } // namespace
 
-MultiVector EvaluateAtPoints(
-  const GridFunctions& space, const MultiVector& coefficients, const Job& job)
+template<int Functions>
+MultiVector EvaluateAtPoints(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const MultiVector& coefficients, const Job& job)
 {
-  return EvaluateAt(space, space.pointPatch, coefficients, job);
+  return EvaluateAt(space, level, space.pointPatch, coefficients, job);
 }
 
 MultiVector EvaluateAtClippedPoints(
@@ -170,14 +173,15 @@ MultiVector EvaluateAtClippedPoints(
 {
   const Array<Index> patchOfPoint = FindPointPatches(space.clipped, space.piecePatch,
     space.Finest().NumberOfPatches(), static_cast<Id>(space.clipped.position.size()), threads);
-  return EvaluateAt(space, patchOfPoint, coefficients, threads);
+  return EvaluateAt(space, space.Finest(), patchOfPoint, coefficients, threads);
 }
 
-MultiVector MeanGradients(
-  const GridFunctions& space, Id triangles, const MultiVector& coefficients, const Job& job)
+template<int Functions>
+MultiVector MeanGradients(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  Id triangles, const MultiVector& coefficients, const Job& job)
 {
-  MultiVector mean = MeansOfPieces(
-    space, triangles, coefficients, job, [](const Vec3& integral, double) { return integral; });
+  MultiVector mean = MeansOfPieces(space, level, triangles, coefficients, job,
+    [](const Vec3& integral, double) { return integral; });
   mean /= space.GetGrid().spacing;
   return mean;
 }
@@ -195,13 +199,14 @@ std::vector<double> AreasOfPieces(const GridFunctions& space, Id triangles)
 MultiVector MeanDirections(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, const Job& job)
 {
-  return MeansOfPieces(space, triangles, coefficients, job,
+  return MeansOfPieces(space, space.Finest(), triangles, coefficients, job,
     [](const Vec3& integral, double area) { return Vec3(area * DirectionOf(integral)); });
 }
 
-SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points)
+template<int Functions>
+SparseMatrix EvaluationRows(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const std::vector<Id>& points)
 {
-  const PatchLevel& level = space.Finest();
   RowBuilder rows;
   RowBuilder::Entries entries;
   for (const Id point : points)
@@ -214,9 +219,9 @@ SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& p
     const Index patch = space.pointPatch[point];
     if (patch >= 0)
     {
-      CornerValues b;
-      TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
-      for (int i = 0; i < FunctionsPerPatch; ++i)
+      std::array<double, Functions> b;
+      BasisValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
+      for (int i = 0; i < Functions; ++i)
       {
         entries.emplace_back(level.dof[patch][i], b[i]);
       }
@@ -249,5 +254,18 @@ MultiVector MeansOnPatches(const GridFunctions& space, const MultiVector& onTria
     });
   return mean;
 }
+
+template MultiVector EvaluateAtPoints(
+  const GridFunctions&, const PatchLevel&, const MultiVector&, const Job&);
+template MultiVector MeanGradients(
+  const GridFunctions&, const PatchLevel&, Id, const MultiVector&, const Job&);
+template SparseMatrix EvaluationRows(
+  const GridFunctions&, const PatchLevel&, const std::vector<Id>&);
+template MultiVector EvaluateAtPoints(
+  const GridFunctions&, const SmoothLevel&, const MultiVector&, const Job&);
+template MultiVector MeanGradients(
+  const GridFunctions&, const SmoothLevel&, Id, const MultiVector&, const Job&);
+template SparseMatrix EvaluationRows(
+  const GridFunctions&, const SmoothLevel&, const std::vector<Id>&);
 
 } // namespace gridfem

@@ -2,6 +2,7 @@
 // on each source triangle, so four numbers per lane and column give their values at all samples.
 #include "Integrals/LoadVector.h"
 
+#include "Integrals/LoadSums.h"
 #include "Integrals/PatchIntegrals.h"
 #include "Integrals/PatchShares.h"
 
@@ -164,13 +165,6 @@ private:
   LaneVector normal_;
 };
 
-/// A sample on every triangle of a batch. The weight includes the area and the scale.
-struct Sample
-{
-  Lanes position[3];
-  Lanes weight;
-};
-
 /// Calls body(sample) for the points of the rule.
 template<class Body>
 EIGEN_ALWAYS_INLINE void ForEachSample(
@@ -195,132 +189,14 @@ EIGEN_ALWAYS_INLINE void ForEachSample(
   }
 }
 
-/// The four products of the linear functions 1 - t and t along two axes.
-struct Bilinear
-{
-  Lanes product[4]; // first axis fastest
-
-  EIGEN_ALWAYS_INLINE Bilinear(const Lanes& first, const Lanes& second)
-  {
-    product[3] = first * second;
-    product[2] = second - product[3];
-    product[1] = first - product[3];
-    product[0] = 1.0 - first - product[2];
-  }
-};
-
-/// Sums ∫ f b_i over a patch.
-template<int Width>
-class ValueSums
-{
-public:
-  static constexpr int Count = Width;
-
-  ValueSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
-  EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const Lanes* value)
-  {
-    const Bilinear across(sample.position[0], sample.position[1]);
-    for (int c = 0; c < Width; ++c)
-    {
-      const Lanes weighted = sample.weight * value[c];
-      const Lanes up = weighted * sample.position[2];
-      const Lanes down = weighted - up;
-      for (int k = 0; k < 4; ++k)
-      {
-        sum_[c][k] += down * across.product[k];
-        sum_[c][4 + k] += up * across.product[k];
-      }
-    }
-  }
-
-  void Write(double* share) const
-  {
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (int c = 0; c < Width; ++c)
-      {
-        share[i * Width + c] = SumOverLanes(sum_[c][i]);
-      }
-    }
-  }
-
-private:
-  std::array<std::array<Lanes, FunctionsPerPatch>, Width> sum_;
-};
-
-/// Sums ∫ <s, ∇b_i> over a patch. Up to the sign, the derivative of a function along an axis is the
-/// product of its linear functions along the other two axes. Four sums per axis therefore serve all
-/// eight functions.
-template<int Width>
-class GradientSums
-{
-public:
-  static constexpr int Count = Width;
-
-  GradientSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
-  EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const LaneVector* vector)
-  {
-    for (int p = 0; p < 3; ++p)
-    {
-      const Bilinear across(sample.position[(p + 1) % 3], sample.position[(p + 2) % 3]);
-      for (int c = 0; c < Width; ++c)
-      {
-        const Lanes weighted = sample.weight * vector[c].axis[p];
-        for (int k = 0; k < 4; ++k)
-        {
-          sum_[c][4 * p + k] += weighted * across.product[k];
-        }
-      }
-    }
-  }
-
-  void Write(double* share) const
-  {
-    for (int c = 0; c < Width; ++c)
-    {
-      std::array<double, 12> sum;
-      std::transform(sum_[c].begin(), sum_[c].end(), sum.begin(), SumOverLanes);
-      for (int i = 0; i < FunctionsPerPatch; ++i)
-      {
-        double total = 0.0;
-        for (int p = 0; p < 3; ++p)
-        {
-          const int first = (i >> (p + 1) % 3) & 1;
-          const int second = (i >> (p + 2) % 3) & 1;
-          const double value = sum[4 * p + first + 2 * second];
-          total += (i >> p) & 1 ? value : -value;
-        }
-        share[i * Width + c] = total;
-      }
-    }
-  }
-
-private:
-  std::array<std::array<Lanes, 12>, Width> sum_;
-};
-
 /// Integrates over all patches. addBatch(batch, source triangles, first column, sums) adds a batch
-/// to `sums`, a Sums<columns of the pass>.
-template<template<int> class Sums, class AddBatch>
-MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id columns,
-  const QuadratureRule& rule, const Job& job, AddBatch&& addBatch)
+/// to `sums`, a Sums<functions, columns of the pass>.
+template<template<int, int> class Sums, int Functions, class AddBatch>
+MultiVector Integrate(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, Id columns, const QuadratureRule& rule, const Job& job,
+  AddBatch&& addBatch)
 {
   CheckMesh(space, mesh);
-  const PatchLevel& level = space.Finest();
   const FunctionPlaces places = PlacesOfFunctions(level, job.threads);
   MultiVector result(level.numberOfFunctions, columns);
   std::vector<double> shares;
@@ -328,16 +204,16 @@ MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id c
     [&](auto pass, Id first)
     {
       constexpr int Width = decltype(pass)::value;
-      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Width);
+      shares.resize(level.NumberOfPatches() * Functions * Width);
       ForEachPatch(space, rule,
         job.Part(double(first) / double(columns), double(first + Width) / double(columns)),
         [&](Id patch, auto&& forEachBatch)
         {
-          Sums<Width> sums;
+          Sums<Functions, Width> sums;
           const Vec3 origin = CellCorner(level.cell[patch]);
           forEachBatch([&](const TriangleBatch& batch)
             { addBatch(batch, SourceLanes(space, mesh, batch, origin), first, sums); });
-          sums.Write(shares.data() + patch * FunctionsPerPatch * Width);
+          sums.Write(shares.data() + patch * Functions * Width);
         });
       SumShares<Width>(shares, places, first, job.threads, result);
     });
@@ -373,13 +249,14 @@ EIGEN_ALWAYS_INLINE LaneVector Tangential(
 }
 
 /// Returns ∫ <s, ∇b_i> for s = map(vector of the field, normal).
-template<class Map>
-MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
-  const Field* scale, const QuadratureRule& rule, const Job& job, Map&& map)
+template<int Functions, class Map>
+MultiVector IntegrateVectors(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const Field& s, const Field* scale, const QuadratureRule& rule,
+  const Job& job, Map&& map)
 {
   RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, job,
+  return Integrate<GradientSums>(space, level, mesh, s.values.cols() / 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Width = std::decay_t<decltype(sums)>::Count;
@@ -411,43 +288,6 @@ MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mes
     });
 }
 
-/// A trilinear function on a patch, stored as the differences of its coefficients along the axes.
-class PatchSlopes
-{
-public:
-  PatchSlopes(
-    const std::array<Index, FunctionsPerPatch>& dof, const MultiVector& coefficients, Id column)
-  {
-    for (int p = 0; p < 3; ++p)
-    {
-      for (int k = 0; k < 4; ++k)
-      {
-        const int low = ((k & 1) << (p + 1) % 3) + ((k >> 1) << (p + 2) % 3);
-        difference_[p][k] =
-          coefficients(dof[low + (1 << p)], column) - coefficients(dof[low], column);
-      }
-    }
-  }
-
-  EIGEN_ALWAYS_INLINE LaneVector At(const Lanes* position) const
-  {
-    LaneVector gradient;
-    for (int p = 0; p < 3; ++p)
-    {
-      const Bilinear across(position[(p + 1) % 3], position[(p + 2) % 3]);
-      gradient.axis[p] = Lanes::Zero();
-      for (int k = 0; k < 4; ++k)
-      {
-        gradient.axis[p] += difference_[p][k] * across.product[k];
-      }
-    }
-    return gradient;
-  }
-
-private:
-  double difference_[3][4];
-};
-
 /// Returns factor v / |v|, or 0 for v = 0. v may be so small that its square is 0.
 EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor)
 {
@@ -469,15 +309,17 @@ EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor
 
 } // namespace
 
-MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, const Job& job, const std::vector<double>* weight)
+template<int Functions>
+MultiVector IntegrateValues(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const Field& f, const QuadratureRule& rule, const Job& job,
+  const std::vector<double>* weight)
 {
   RequireField(f, mesh);
   if (weight)
   {
     RequireWeights(*weight, mesh);
   }
-  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, job,
+  return Integrate<ValueSums>(space, level, mesh, f.values.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       const Lanes factor =
@@ -502,20 +344,24 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
     });
 }
 
-MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
-  const Field* scale, const QuadratureRule& rule, const Job& job)
+template<int Functions>
+MultiVector IntegrateGradients(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const Field& s, const Field* scale, const QuadratureRule& rule,
+  const Job& job)
 {
   const double spacing = space.GetGrid().spacing;
-  return IntegrateVectors(space, mesh, s, scale, rule, job,
+  return IntegrateVectors(space, level, mesh, s, scale, rule, job,
     [spacing](const LaneVector& vector, const LaneVector& normal)
     { return Tangential(vector, normal, spacing); });
 }
 
-MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& s, const QuadratureRule& rule, const Job& job)
+template<int Functions>
+MultiVector IntegrateTurnedGradients(const GridFunctions& space,
+  const BasicPatchLevel<Functions>& level, const TriangleMesh& mesh, const Field& s,
+  const QuadratureRule& rule, const Job& job)
 {
   const double spacing = space.GetGrid().spacing;
-  return IntegrateVectors(space, mesh, s, nullptr, rule, job,
+  return IntegrateVectors(space, level, mesh, s, nullptr, rule, job,
     [spacing](const LaneVector& vector, const LaneVector& normal)
     {
       LaneVector turned;
@@ -530,23 +376,24 @@ MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleM
     });
 }
 
-MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
-  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, const Job& job)
+template<int Functions>
+MultiVector IntegrateDirections(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
+  const TriangleMesh& mesh, const MultiVector& coefficients, const Field* scale,
+  const QuadratureRule& rule, const Job& job)
 {
   RequireScale(scale, mesh);
-  const PatchLevel& level = space.Finest();
   if (coefficients.rows() != level.numberOfFunctions)
   {
     throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
                        std::to_string(level.numberOfFunctions) + " functions.");
   }
   const double spacing = space.GetGrid().spacing;
-  return Integrate<GradientSums>(space, mesh, coefficients.cols(), rule, job,
+  return Integrate<GradientSums>(space, level, mesh, coefficients.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Width = std::decay_t<decltype(sums)>::Count;
       const auto& dof = level.dof[space.piecePatch[batch.piece[0]]];
-      std::vector<PatchSlopes> slopes;
+      std::vector<PatchSlopes<Functions>> slopes;
       slopes.reserve(Width);
       for (int c = 0; c < Width; ++c)
       {
@@ -570,12 +417,14 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
     });
 }
 
-MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const Field* scale, const QuadratureRule& rule, const Job& job)
+template<int Functions>
+MultiVector IntegrateGradientsOf(const GridFunctions& space,
+  const BasicPatchLevel<Functions>& level, const TriangleMesh& mesh, const Field& f,
+  const Field* scale, const QuadratureRule& rule, const Job& job)
 {
   RequireOnPoints(f, mesh);
   RequireScale(scale, mesh);
-  return Integrate<GradientSums>(space, mesh, f.values.cols(), rule, job,
+  return Integrate<GradientSums>(space, level, mesh, f.values.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Width = std::decay_t<decltype(sums)>::Count;
@@ -593,12 +442,14 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
     });
 }
 
-MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field* scale, const QuadratureRule& rule, double normalStabilization, const Job& job)
+template<int Functions>
+MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space,
+  const BasicPatchLevel<Functions>& level, const TriangleMesh& mesh, const Field* scale,
+  const QuadratureRule& rule, double normalStabilization, const Job& job)
 {
   RequireScale(scale, mesh);
   const double spacing = space.GetGrid().spacing;
-  return Integrate<GradientSums>(space, mesh, 3, rule, job,
+  return Integrate<GradientSums>(space, level, mesh, 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id, auto& sums)
     {
       constexpr int Width = std::decay_t<decltype(sums)>::Count;
@@ -621,5 +472,30 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const Tr
         });
     });
 }
+
+template MultiVector IntegrateValues(const GridFunctions&, const PatchLevel&, const TriangleMesh&,
+  const Field&, const QuadratureRule&, const Job&, const std::vector<double>*);
+template MultiVector IntegrateGradients(const GridFunctions&, const PatchLevel&,
+  const TriangleMesh&, const Field&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateTurnedGradients(const GridFunctions&, const PatchLevel&,
+  const TriangleMesh&, const Field&, const QuadratureRule&, const Job&);
+template MultiVector IntegrateDirections(const GridFunctions&, const PatchLevel&,
+  const TriangleMesh&, const MultiVector&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateGradientsOf(const GridFunctions&, const PatchLevel&,
+  const TriangleMesh&, const Field&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateGradientsOfCoordinates(const GridFunctions&, const PatchLevel&,
+  const TriangleMesh&, const Field*, const QuadratureRule&, double, const Job&);
+template MultiVector IntegrateValues(const GridFunctions&, const SmoothLevel&, const TriangleMesh&,
+  const Field&, const QuadratureRule&, const Job&, const std::vector<double>*);
+template MultiVector IntegrateGradients(const GridFunctions&, const SmoothLevel&,
+  const TriangleMesh&, const Field&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateTurnedGradients(const GridFunctions&, const SmoothLevel&,
+  const TriangleMesh&, const Field&, const QuadratureRule&, const Job&);
+template MultiVector IntegrateDirections(const GridFunctions&, const SmoothLevel&,
+  const TriangleMesh&, const MultiVector&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateGradientsOf(const GridFunctions&, const SmoothLevel&,
+  const TriangleMesh&, const Field&, const Field*, const QuadratureRule&, const Job&);
+template MultiVector IntegrateGradientsOfCoordinates(const GridFunctions&, const SmoothLevel&,
+  const TriangleMesh&, const Field*, const QuadratureRule&, double, const Job&);
 
 } // namespace gridfem

@@ -168,6 +168,60 @@ void ForEachPatch(
     PatchesPerBlock, job.progress);
 }
 
+/// Returns the numbers of a batch's source triangles; null: 1.
+inline Lanes OnBatch(
+  const ClippedMesh& clipped, const TriangleBatch& batch, const std::vector<double>* onTriangles)
+{
+  Lanes lanes = Lanes::Ones();
+  for (int lane = 0; onTriangles && lane < LaneCount; ++lane)
+  {
+    lanes[lane] = (*onTriangles)[clipped.pieceTriangle[batch.piece[lane]]];
+  }
+  return lanes;
+}
+
+/// Weights of mass and stiffness on the triangles of a batch.
+struct BatchWeights
+{
+  Lanes mass;
+  LaneTensor stiffness;
+
+  /// @param weight  of the mass on each source triangle; null: 1
+  /// @param tensor  in the plane of each source triangle; null: the projection to the plane
+  /// @param normalWeight  weight of n nᵀ, added to the tensor
+  BatchWeights(const ClippedMesh& clipped, const TriangleBatch& batch, const LaneVector& normal,
+    const std::vector<double>* weight, const std::vector<Eigen::Matrix3d>* tensor,
+    double normalWeight)
+    : mass(OnBatch(clipped, batch, weight))
+  {
+    if (!tensor)
+    {
+      stiffness = TangentialProjection(normal, normalWeight);
+      return;
+    }
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      const Eigen::Matrix3d& own = (*tensor)[clipped.pieceTriangle[batch.piece[lane]]];
+      for (int p = 0; p < 3; ++p)
+      {
+        stiffness.same[p][lane] = own(p, p);
+        stiffness.mixed[p][lane] = own(p, (p + 1) % 3);
+      }
+    }
+    this->AddNormal(normal, Lanes::Constant(normalWeight));
+  }
+
+  /// Adds a multiple of n nᵀ to the tensors.
+  void AddNormal(const LaneVector& normal, const Lanes& factor)
+  {
+    for (int p = 0; p < 3; ++p)
+    {
+      stiffness.same[p] += factor * normal.axis[p] * normal.axis[p];
+      stiffness.mixed[p] += factor * normal.axis[p] * normal.axis[(p + 1) % 3];
+    }
+  }
+};
+
 /// Integrates the mass and, if wanted, the stiffness of every finest patch. prepare(batch, planes)
 /// returns a function set(point, count, samples). It sets mass and tensor of the samples at `count`
 /// points of the rule, beginning with `point`. On entry, the samples have their positions, and

@@ -135,6 +135,38 @@ TriangleMetric MetricOfTensors(const TriangleMesh& mesh, const Field& tensors)
   return metric;
 }
 
+TriangleMetric MetricOfMovedTriangles(
+  const TriangleMesh& mesh, const TriangleMesh& moved, Id& singular)
+{
+  const std::size_t triangles = mesh.triangles.size();
+  TriangleMetric metric;
+  metric.area.assign(triangles, 0.0);
+  metric.tensor.assign(triangles, Eigen::Matrix3d::Zero());
+  singular = 0;
+  for (std::size_t t = 0; t < triangles; ++t)
+  {
+    const TriangleFrame before(mesh, static_cast<Id>(t));
+    if (before.isFlat)
+    {
+      continue;
+    }
+    const TriangleFrame after(moved, static_cast<Id>(t));
+    const double square = before.normal.squaredNorm();
+    const Eigen::Matrix3d map = (after.a * before.b.cross(before.normal).transpose() +
+                                  after.b * before.normal.cross(before.a).transpose()) /
+                                square;
+    const PlaneTensor plane(mesh, static_cast<Id>(t), map.transpose() * map);
+    if (!plane.IsMetric())
+    {
+      ++singular;
+      continue;
+    }
+    metric.area[t] = plane.Area();
+    metric.tensor[t] = plane.InverseTimesArea();
+  }
+  return metric;
+}
+
 void RequireMetric(const TriangleMetric& metric, const TriangleMesh& mesh)
 {
   if (metric.area.size() != mesh.triangles.size() || metric.tensor.size() != mesh.triangles.size())

@@ -99,6 +99,12 @@ Field MapVectors(const TriangleMesh& mesh, const Field& s, const MatrixOf& matri
   return result;
 }
 
+/// Returns the metric of a mesh with the same triangles and moved points: that of the linear map
+/// between the triangles. Where it is singular, area and tensor are 0.
+/// @param singular  receives the number of triangles with area whose metric is singular
+TriangleMetric MetricOfMovedTriangles(
+  const TriangleMesh& mesh, const TriangleMesh& moved, Id& singular);
+
 /// Throws InvalidInput unless the metric has an entry for every triangle of the mesh.
 void RequireMetric(const TriangleMetric& metric, const TriangleMesh& mesh);
 

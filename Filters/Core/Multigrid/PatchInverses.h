@@ -49,6 +49,16 @@ EIGEN_DONT_INLINE void RelaxPatch(const RowView<Real>& A,
 /// Largest number of unknowns of a group. A thread holds this many while it relaxes a group.
 constexpr int LargestGroup = 64;
 
+/// r = Vᵀ V r for one column. Vector instructions run along the group.
+inline void ApplyToColumn(const Eigen::MatrixXd& V, double* r)
+{
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, LargestGroup, 1>;
+  Eigen::Map<Eigen::VectorXd> residual(r, V.rows());
+  Column half(V.rows());
+  half.noalias() = V * residual;
+  residual.noalias() = V.transpose() * half;
+}
+
 /// x += Vᵀ V (b - A x) on a group of any size.
 template<class Chunk, class Real>
 EIGEN_DONT_INLINE void RelaxGroup(
@@ -61,6 +71,15 @@ EIGEN_DONT_INLINE void RelaxGroup(
   {
     const Index row = group.unknown[i];
     r[i] = (chunk.Row(b, row) - RowProduct(A, row, x, chunk)).template cast<double>();
+  }
+  if constexpr (Chunk::Width == 1)
+  {
+    ApplyToColumn(V, &r[0][0]);
+    for (int i = 0; i < count; ++i)
+    {
+      chunk.Row(x, group.unknown[i]) += r[i].template cast<Real>();
+    }
+    return;
   }
   for (int i = count - 1; i >= 0; --i)
   {

@@ -114,11 +114,16 @@ double LocalSurface::LongestSide() const
 
 HeldValues LocalSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
+  RequireFirstDegree(used_.choice.kind, "Values that are held at points");
   return HoldPointsAndEdges(*space_, this->Mesh(), basis_.weldCoincidentPoints, points, values);
 }
 
 BoundaryTerms LocalSurface::OnBoundary(const MultiVector* flux, const MultiVector* values) const
 {
+  if (values)
+  {
+    RequireFirstDegree(used_.choice.kind, "Values that are held on the boundary");
+  }
   return TermsOnBoundary(*space_, this->Mesh(), basis_.weldCoincidentPoints, flux, values);
 }
 

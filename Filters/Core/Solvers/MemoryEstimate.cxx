@@ -44,6 +44,11 @@ constexpr double HeldPerFunction = 80.0;
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
+// Quadratic functions, for all levels. There are half as many patches as functions. Tables 90, mass
+// and stiffness with 75 entries per row 2,000, the matrix of the hierarchy 800, prolongations and
+// their transposes 400, inverses 4,000.
+constexpr double SmoothPerFunction = 7300.0;
+
 /// Bytes of cached files in a container's use. The system frees them when memory is needed.
 double BytesOfFiles()
 {
@@ -139,6 +144,11 @@ int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
 double EstimateHatMemory(const TriangleMesh& mesh, double functions)
 {
   return HatsPerPoint * WeldedPoints(mesh) + HatsPerFunction * functions;
+}
+
+double EstimateSmoothMemory(double functions)
+{
+  return SmoothPerFunction * functions;
 }
 
 double MemoryOfMachine()

@@ -69,6 +69,10 @@ int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
 /// @param functions  of the grid below; the transfer has a row for each
 double EstimateHatMemory(const TriangleMesh& mesh, double functions);
 
+/// Additional bytes for the quadratic functions of a grid with this many trilinear ones: their
+/// matrices and their hierarchy. Within a third.
+double EstimateSmoothMemory(double functions);
+
 /// Bytes that all processes of this machine together can allocate now. In a container it is at most
 /// the rest of the container's limit. Infinity when unknown.
 double MemoryOfMachine();

@@ -18,7 +18,9 @@ namespace
 /// Bytes of everything that a filter makes on the grid.
 double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKind kind)
 {
-  return grid.bytes + (kind == FunctionKind::Hats ? EstimateHatMemory(mesh, grid.functions) : 0.0);
+  return grid.bytes + (kind == FunctionKind::Hats          ? EstimateHatMemory(mesh, grid.functions)
+                        : kind == FunctionKind::SmoothGrid ? EstimateSmoothMemory(grid.functions)
+                                                           : 0.0);
 }
 
 } // namespace
@@ -51,6 +53,16 @@ void RequireAtMost(const char* property, double value, double most)
   }
 }
 
+void RequireFirstDegree(FunctionKind kind, const char* subject)
+{
+  if (kind == FunctionKind::SmoothGrid)
+  {
+    throw InvalidInput(std::string(subject) +
+                       " need functions of degree one. Set Function Space to Grid or to Hat "
+                       "Functions.");
+  }
+}
+
 bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
 {
   return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory();
@@ -68,6 +80,10 @@ int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double 
   if (kind == FunctionKind::Hats)
   {
     depth = DepthForPoints(mesh, depth, perPoint);
+  }
+  else if (kind == FunctionKind::SmoothGrid && isAutomatic)
+  {
+    depth -= 1; // about as accurate as trilinear functions at the depth suggested for them
   }
   return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, kind) : depth;
 }
@@ -102,6 +118,10 @@ void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
   if (kind == FunctionKind::Hats)
   {
     subject << " with the hat functions of " << mesh.points.size() << " points";
+  }
+  else if (kind == FunctionKind::SmoothGrid)
+  {
+    subject << " of degree two";
   }
   RequireMemory({ BytesOf(mesh, estimate, kind), subject.str(), CoarserGrid }, AvailableMemory());
 }

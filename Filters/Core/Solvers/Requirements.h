@@ -20,6 +20,10 @@ void RequireAtLeast(const char* property, double value, double least);
 /// Throws InvalidInput, naming the property, if its value is above `most`.
 void RequireAtMost(const char* property, double value, double most);
 
+/// Throws InvalidInput, naming the subject, for functions of degree two.
+/// @param subject  plural, such as "Distances"
+void RequireFirstDegree(FunctionKind kind, const char* subject);
+
 /// Whether everything that a solver makes at this depth should fit into memory.
 bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 

@@ -94,6 +94,7 @@ const StitchSolver::Result& StitchSolver::Update(
 {
   RequireInput(input);
   RequireOptions(options);
+  RequireFirstDegree(surface.UsedOptions().choice.kind, "Stitched colors");
   surface.Prepare(job.progress.Part(0.0, 0.35));
   job.Check(0.35);
   this->UpdateCut(surface, input, options, job.Part(0.35, 0.6));

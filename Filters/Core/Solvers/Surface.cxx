@@ -35,6 +35,7 @@ double Surface::LengthInWorldUnits(double length) const
 std::unique_ptr<DistanceMethod> Surface::MakeDistance(
   const DistanceOptions& options, const Job& job) const
 {
+  RequireFirstDegree(this->UsedOptions().choice.kind, "Distances");
   return std::make_unique<GeodesicDistance>(this->WholeSpace(), this->SharedMesh(), options, job);
 }
 

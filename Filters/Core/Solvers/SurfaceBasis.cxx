@@ -13,6 +13,14 @@ std::tuple<int, Index, double> OperatorKey(const SpaceChoice& choice)
   return { choice.quadratureDegree, choice.coarsestSize, choice.normalStabilization };
 }
 
+std::shared_ptr<const FiniteElementSpace> OnSmoothGrid(
+  const SurfaceBasis& basis, std::shared_ptr<const SmoothOperators> operators)
+{
+  return operators
+           ? std::make_shared<const SmoothSpace>(basis.mesh, basis.space, std::move(operators))
+           : nullptr;
+}
+
 /// Null unless its parts are there.
 std::shared_ptr<const FiniteElementSpace> Compose(const SurfaceBasis& basis,
   std::shared_ptr<const LevelOperators> operators, FunctionKind kind,
@@ -39,6 +47,7 @@ SurfaceBasis MakeSurfaceBasis(
   basis.mesh = std::move(mesh);
   basis.space = std::make_shared<const GridFunctions>(std::move(space));
   basis.operators = std::make_shared<OperatorStore>();
+  basis.smooth = std::make_shared<SmoothStore>();
   basis.hats = std::make_shared<HatStore>();
   basis.weldCoincidentPoints = weldCoincidentPoints;
   return basis;
@@ -47,6 +56,10 @@ SurfaceBasis MakeSurfaceBasis(
 std::shared_ptr<const FiniteElementSpace> FindSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice)
 {
+  if (choice.kind == FunctionKind::SmoothGrid)
+  {
+    return OnSmoothGrid(basis, basis.smooth->Find(OperatorKey(choice)));
+  }
   return Compose(basis, basis.operators->Find(OperatorKey(choice)), choice.kind,
     choice.kind == FunctionKind::Hats ? basis.hats->Find(basis.weldCoincidentPoints) : nullptr);
 }
@@ -55,6 +68,16 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job)
 {
   const QuadratureRule& rule = TriangleRule(choice.quadratureDegree);
+  if (choice.kind == FunctionKind::SmoothGrid)
+  {
+    return OnSmoothGrid(basis, basis.smooth->Get(OperatorKey(choice),
+                                 [&]
+                                 {
+                                   return BuildSmoothOperators(*basis.space,
+                                     choice.quadratureDegree, choice.normalStabilization,
+                                     choice.coarsestSize, job);
+                                 }));
+  }
   auto operators = basis.operators->Get(OperatorKey(choice),
     [&]
     {

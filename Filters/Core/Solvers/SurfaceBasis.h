@@ -6,6 +6,7 @@
 #include "Grid/TriangleMesh.h"
 #include "Solvers/SharedStore.h"
 #include "Spaces/HatSpace.h"
+#include "Spaces/SmoothSpace.h"
 #include "Spaces/SpaceChoice.h"
 
 #include <memory>
@@ -15,6 +16,7 @@ namespace gridfem
 {
 
 using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators>;
+using SmoothStore = SharedStore<std::tuple<int, Index, double>, SmoothOperators>;
 using HatStore = SharedStore<bool, HatLevel>;
 
 /// The basis of a surface. It is immutable except for the stores, so that filters and threads may
@@ -26,7 +28,8 @@ struct SurfaceBasis
   /// The element matrices. They belong to patches, not to triangles. All views of the functions on
   /// different meshes share one store, so that the first user changes no bit.
   std::shared_ptr<OperatorStore> operators;
-  std::shared_ptr<HatStore> hats; // by WeldCoincidentPoints
+  std::shared_ptr<SmoothStore> smooth; // the same for quadratic functions
+  std::shared_ptr<HatStore> hats;      // by WeldCoincidentPoints
   bool weldCoincidentPoints = true;
 
   explicit operator bool() const { return space != nullptr; }

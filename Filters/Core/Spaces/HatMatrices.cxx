@@ -260,21 +260,4 @@ MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
   return result;
 }
 
-void Combine(const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads)
-{
-  if (result.value.empty() || result.rows != matrices.mass.rows ||
-      result.NonZeros() != matrices.mass.NonZeros())
-  {
-    result = matrices.stiffness;
-  }
-  ParallelRanges(result.NonZeros(), threads,
-    [&](Id begin, Id end)
-    {
-      for (Id k = begin; k < end; ++k)
-      {
-        result.value[k] = a * matrices.mass.value[k] + b * matrices.stiffness.value[k];
-      }
-    });
-}
-
 } // namespace gridfem

@@ -43,10 +43,6 @@ MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
   const HatWeights& weights, const std::vector<double>& scale, const MultiVector& u,
   int threads = 0);
 
-/// Computes a M + b L, in place if `result` has the pattern.
-void Combine(
-  const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads = 0);
-
 } // namespace gridfem
 
 #endif

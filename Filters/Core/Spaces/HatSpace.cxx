@@ -81,7 +81,7 @@ void HatSpace::FillMatrix(
 {
   if (level == 0)
   {
-    Combine(this->Matrices(), a, b, matrix, job.threads);
+    Combine(a, this->Matrices().mass, b, this->Matrices().stiffness, matrix, job.threads);
   }
   else
   {

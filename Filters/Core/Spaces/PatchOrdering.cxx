@@ -26,7 +26,8 @@ int Colour(MortonKey block)
 /// Returns the patches of a block by the parity of their cell, as if the cells of each block were
 /// colored again. Patches of equal parity are in Morton order. Neighbors then do not wait for each
 /// other. Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
-std::vector<Id> VisitingOrder(const PatchLevel& level, Id begin, Id end)
+template<class Level>
+std::vector<Id> VisitingOrder(const Level& level, Id begin, Id end)
 {
   std::vector<Id> patches(end - begin);
   std::iota(patches.begin(), patches.end(), begin);
@@ -61,7 +62,8 @@ std::vector<BlockRange> FindBlocks(const std::vector<MortonKey>& cell)
   return blocks;
 }
 
-void CheckLevel(const PatchLevel& level)
+template<class Level>
+void CheckLevel(const Level& level)
 {
   if (level.dof.size() != level.cell.size())
   {
@@ -99,14 +101,9 @@ void PlaceFunctions(const PatchLevel& level, PatchOrder& order)
   }
 }
 
-} // namespace
-
-PatchOrder OrderPatches(const PatchLevel& level)
-{
-  return OrderPatches(level, level);
-}
-
-PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level)
+/// Lists the patches block by block, without the positions of functions.
+template<int Functions>
+PatchOrder OrderByBlocks(const BasicPatchLevel<Functions>& some)
 {
   CheckLevel(some);
   std::vector<BlockRange> blocks = FindBlocks(some.cell);
@@ -114,8 +111,8 @@ PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level)
     [](const BlockRange& a, const BlockRange& b) { return a.colour < b.colour; });
 
   PatchOrder order;
-  order.dof.size = FunctionsPerPatch;
-  order.dof.unknown.reserve(FunctionsPerPatch * some.dof.size());
+  order.dof.size = Functions;
+  order.dof.unknown.reserve(Functions * some.dof.size());
   order.blockBegin.push_back(0);
   order.colourBegin.push_back(0);
   for (Id k = 0; k < static_cast<Id>(blocks.size()); ++k)
@@ -134,6 +131,24 @@ PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level)
   {
     order.colourBegin.push_back(static_cast<Id>(blocks.size()));
   }
+  return order;
+}
+
+} // namespace
+
+PatchOrder OrderPatches(const PatchLevel& level)
+{
+  return OrderPatches(level, level);
+}
+
+PatchOrder OrderPatches(const SmoothLevel& level)
+{
+  return OrderByBlocks(level);
+}
+
+PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level)
+{
+  PatchOrder order = OrderByBlocks(some);
   PlaceFunctions(level, order);
   return order;
 }

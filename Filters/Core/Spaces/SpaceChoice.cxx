@@ -1,6 +1,7 @@
 #include "Spaces/SpaceChoice.h"
 
 #include "Spaces/HatSpace.h"
+#include "Spaces/SmoothSpace.h"
 
 namespace gridfem
 {
@@ -12,6 +13,10 @@ std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
   if (choice.kind == FunctionKind::Grid)
   {
     return std::make_unique<GridSpace>(BuildGridSpace(mesh, options, progress));
+  }
+  if (choice.kind == FunctionKind::SmoothGrid)
+  {
+    return std::make_unique<SmoothSpace>(BuildSmoothSpace(mesh, options, progress));
   }
   return std::make_unique<HatSpace>(
     BuildHatSpace(mesh, options, HatTransfer::Evaluation, progress));

@@ -222,7 +222,7 @@ TEST(HatMatrices, AreFiniteOnNeedlesAndObtuseTrianglesOfAnySize)
       options.unitLength = scale;
       const HatMatrices matrices = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options));
       SparseMatrix A;
-      Combine(matrices, 1.0, 1.0, A);
+      Combine(1.0, matrices.mass, 1.0, matrices.stiffness, A);
       EXPECT_TRUE(Dense(A).allFinite()) << height << " " << scale;
       EXPECT_GE(A.rows, 3);
       // Negative cotangents do not make the sum of element matrices indefinite.
