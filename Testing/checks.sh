@@ -94,7 +94,7 @@ Threads()
   # Without libomp's archer every barrier is a false alarm.
   export OMP_TOOL_LIBRARIES=libarcher.so
   export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.](Core|More)$" < /dev/null
+  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.](Core|More|Defects|MoreDefects)$" < /dev/null
   "$folder/bin/FuzzCore" 1 500
 }
 
@@ -107,6 +107,7 @@ Sanitize()
   Say "Building in $folder"
   Quietly "$folder/build.log" cmake --build "$folder" --target FuzzCore -j "$JOBS"
   "$folder/bin/FuzzCore" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
+  "$folder/bin/FuzzCore" defects "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
 }
 
 Long()

@@ -5,6 +5,9 @@
 //     FuzzCore SEED               describes one case
 //     FuzzCore                    runs the seeds of all cases found so far
 //
+// With "defects" as first argument, FuzzCore runs the series of surfaces with defects instead.
+// Their results must be those of the clean surface.
+//
 // Returns 1 if something is broken. The current seed is the last output on the error stream, so
 // that a crash shows it.
 #include "RandomProblem.h"
@@ -44,11 +47,13 @@ struct Timed
   double seconds;
 };
 
-Timed RunTimed(std::uint64_t seed)
+using RunOne = Outcome (*)(std::uint64_t seed);
+
+Timed RunTimed(RunOne run, std::uint64_t seed)
 {
   std::cerr << "\rseed " << seed << ' ' << std::flush;
   const auto start = std::chrono::steady_clock::now();
-  Timed timed{ RunCase(seed), 0.0 };
+  Timed timed{ run(seed), 0.0 };
   timed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   timed.outcome.Require(timed.seconds < Longest * Slowdown, "took too long");
   return timed;
@@ -125,14 +130,14 @@ int RunFound()
   int broken = 0;
   for (const std::uint64_t seed : Found)
   {
-    const Timed timed = RunTimed(seed);
+    const Timed timed = RunTimed(RunCase, seed);
     broken += !timed.outcome.broken.empty() || IsMissed(timed.outcome);
     Describe(std::cout, seed, timed);
   }
   return broken > 0;
 }
 
-int RunSeeds(std::uint64_t first, std::uint64_t number)
+int RunSeeds(RunOne run, std::uint64_t first, std::uint64_t number)
 {
   std::map<std::string, Counts> counts;
   int broken = 0;
@@ -141,7 +146,7 @@ int RunSeeds(std::uint64_t first, std::uint64_t number)
   int limited = 0; // by their data
   for (std::uint64_t seed = first; seed < first + number; ++seed)
   {
-    const Timed timed = RunTimed(seed);
+    const Timed timed = RunTimed(run, seed);
     const Outcome& outcome = timed.outcome;
     counts[outcome.problem].Add(seed, timed);
     const bool isCounted = IsCounted(outcome);
@@ -170,16 +175,19 @@ int RunSeeds(std::uint64_t first, std::uint64_t number)
 
 int main(int argc, char** argv)
 {
-  if (argc < 2)
+  const bool areDefects = argc > 1 && std::string(argv[1]) == "defects";
+  const RunOne run = areDefects ? RunDefectCase : RunCase;
+  char** const seeds = argv + (areDefects ? 2 : 1);
+  if (!seeds[0])
   {
     return RunFound();
   }
-  const std::uint64_t seed = std::strtoull(argv[1], nullptr, 10);
-  if (argc > 2)
+  const std::uint64_t seed = std::strtoull(seeds[0], nullptr, 10);
+  if (seeds[1])
   {
-    return RunSeeds(seed, std::strtoull(argv[2], nullptr, 10));
+    return RunSeeds(run, seed, std::strtoull(seeds[1], nullptr, 10));
   }
-  const Timed timed = RunTimed(seed);
+  const Timed timed = RunTimed(run, seed);
   Describe(std::cout, seed, timed);
   return !timed.outcome.broken.empty();
 }

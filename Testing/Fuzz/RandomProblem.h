@@ -2,6 +2,7 @@
 #ifndef GridFEM_Testing_RandomProblem_h
 #define GridFEM_Testing_RandomProblem_h
 
+#include "Defects.h"
 #include "Outcome.h"
 #include "RandomSurface.h"
 
@@ -10,6 +11,9 @@ namespace gridfem::testing
 
 /// Runs the case of a seed. Exceptions of Core other than InvalidInput count as broken.
 Outcome RunCase(std::uint64_t seed);
+
+/// Runs a case of another series: a solver on a surface with defects and on the clean surface.
+Outcome RunDefectCase(std::uint64_t seed);
 
 ///@{ Each adds violated requirements to the outcome, and may throw whatever Core throws.
 using RandomProblem = void (*)(Choice& choice, RandomSurface& surface, Outcome& outcome);
@@ -36,6 +40,10 @@ void FindCurvatures(Choice& choice, RandomSurface& surface, Outcome& outcome);
 void Decompose(Choice& choice, RandomSurface& surface, Outcome& outcome);
 void Derive(Choice& choice, RandomSurface& surface, Outcome& outcome);
 ///@}
+
+/// Requires that a random solver has the same results on a clean surface and on the same surface
+/// with defects.
+void CompareWithClean(Choice& choice, const Defects& defects, Outcome& outcome);
 
 } // namespace gridfem::testing
 
