@@ -17,7 +17,9 @@
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 vtkStandardNewMacro(vtkHarmonicInterpolation);
 
@@ -78,7 +80,8 @@ gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
 
 struct vtkHarmonicInterpolation::Internals
 {
-  gridfem::InputArray Array; // where the values come from
+  gridfem::InputArray Array; // where the values come from; none for the table
+  std::vector<std::array<double, 2>> Table;
   gridfem::InterpolationSolver Solver;
 };
 
@@ -117,11 +120,39 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
     return values;
   }
   array = FindValueArray(this, input);
+  if (!array.array && !this->Data->Table.empty())
+  {
+    return this->ReadTable();
+  }
   gridfem::RequirePointArray(array, "Value Array",
-    "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points.");
+    "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points. "
+    "Or type points with their values into Known Values.");
   const gridfem::InputArray mask = surface.Find(1, "Mask Array");
   values.find = [this, array, mask, &surface]
   { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
+  return values;
+}
+
+gridfem::GivenConstraints vtkHarmonicInterpolation::ReadTable()
+{
+  gridfem::InputSurface& surface = this->State->Surface();
+  gridfem::GivenConstraints values;
+  values.find = [this, &surface]
+  {
+    std::string outside;
+    gridfem::PointValues given = gridfem::TypedValues(this->Data->Table, surface.Mesh(), outside);
+    if (given.points.empty())
+    {
+      throw gridfem::MissingChoice(
+        "No point of Known Values is on the surface. Type ids of points of the surface.");
+    }
+    if (!outside.empty())
+    {
+      this->Warn({ "These points of Known Values are not on the surface, and do not count: " +
+                   outside + "." });
+    }
+    return given;
+  };
   return values;
 }
 
@@ -141,8 +172,11 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
     data.Solver.Update(surface, { values }, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
-  output->GetPointData()->AddArray(gridfem::MakeSolution(
-    "Interpolated", result.atPoints, data.Array, data.Array.array->GetDataType()));
+  const char* name = "Interpolated";
+  output->GetPointData()->AddArray(
+    data.Array.array
+      ? gridfem::MakeSolution(name, result.atPoints, data.Array, data.Array.array->GetDataType())
+      : gridfem::MakePointArray(name, result.atPoints, VTK_DOUBLE));
   output->GetPointData()->SetActiveScalars("Interpolated");
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);
@@ -150,15 +184,37 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   this->Warn(result.warnings);
 }
 
+void vtkHarmonicInterpolation::AddKnownValue(double point, double value)
+{
+  this->Data->Table.push_back({ point, value });
+  this->Modified();
+}
+
+void vtkHarmonicInterpolation::ClearKnownValues()
+{
+  if (!this->Data->Table.empty())
+  {
+    this->Data->Table.clear();
+    this->Modified();
+  }
+}
+
+int vtkHarmonicInterpolation::GetNumberOfKnownValues()
+{
+  return static_cast<int>(this->Data->Table.size());
+}
+
 void vtkHarmonicInterpolation::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
-  *this->Data = Internals();
+  this->Data->Array = gridfem::InputArray();
+  this->Data->Solver = gridfem::InterpolationSolver();
 }
 
 void vtkHarmonicInterpolation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Smoothness: " << this->Smoothness << "\n";
+  os << indent << "KnownValues: " << this->GetNumberOfKnownValues() << "\n";
 }

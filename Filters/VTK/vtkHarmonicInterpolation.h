@@ -16,7 +16,8 @@
  *
  * Arrays have any number of components. SetInputArrayToProcess chooses them:
  * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown. If none is chosen,
- *   the filter takes the only point array that has a NaN at some points and values at others.
+ *   the filter takes the only point array that has a NaN at some points and values at others, or
+ *   else the KnownValues.
  * - index 1, `MaskArray` (optional): point data of port 0, one component. Values are known where it
  *   is neither 0 nor NaN. With a mask or a selection, only masked and selected points have known
  *   values.
@@ -78,6 +79,17 @@ public:
   vtkGetMacro(Smoothness, int);
   ///@}
 
+  ///@{
+  /**
+   * A table of known values with one component: the id of a point in port 0, a whole number, and
+   * its value. The filter uses the table if there is no array to take and no port 2. It warns of
+   * points that are not on the surface, and leaves them out. Empty by default.
+   */
+  void AddKnownValue(double point, double value);
+  void ClearKnownValues();
+  int GetNumberOfKnownValues();
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -108,6 +120,7 @@ private:
   void operator=(const vtkHarmonicInterpolation&) = delete;
 
   gridfem::GivenConstraints FindValues(vtkPolyData* input, vtkDataSet* places);
+  gridfem::GivenConstraints ReadTable();
 
   struct Internals;
   std::unique_ptr<Internals> Data;

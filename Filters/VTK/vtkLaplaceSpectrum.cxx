@@ -185,7 +185,8 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   {
     this->AddMode(mode, gridfem::ModeName(mode), output);
   }
-  output->GetPointData()->SetActiveScalars(gridfem::ModeName(0).c_str());
+  const int varying = std::min(1, this->Data->FoundModes - 1); // mode 0 is constant
+  output->GetPointData()->SetActiveScalars(gridfem::ModeName(varying).c_str());
 }
 
 void vtkLaplaceSpectrum::AddMode(int mode, const std::string& name, vtkPolyData* output)

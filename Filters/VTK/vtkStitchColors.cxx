@@ -72,7 +72,7 @@ gridfem::InputArray FindColors(vtkAlgorithm* algorithm, vtkPolyData* input)
   }
   if (!colors.array)
   {
-    throw gridfem::InvalidInput("Choose a Color Array with the colors of the scans.");
+    throw gridfem::MissingChoice("Choose a Color Array with the colors of the scans.");
   }
   return colors;
 }
@@ -88,7 +88,7 @@ gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkD
   }
   if (!labels.array)
   {
-    throw gridfem::InvalidInput(
+    throw gridfem::MissingChoice(
       "Choose a Label Array with the number of the scan that each color comes from.");
   }
   return labels;

@@ -44,6 +44,13 @@ void EmptyOutputs(vtkInformationVector* outputs)
   }
 }
 
+/// Makes the input the first output. The other outputs are empty.
+void PassOn(vtkInformationVector* input, vtkInformationVector* outputs)
+{
+  EmptyOutputs(outputs);
+  vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(input));
+}
+
 } // namespace
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
@@ -246,9 +253,13 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
     {
       throw;
     }
-    EmptyOutputs(outputs);
-    vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(surfaces[0]));
+    PassOn(surfaces[0], outputs);
     vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
+  }
+  catch (const gridfem::MissingChoice& choice)
+  {
+    PassOn(surfaces[0], outputs);
+    vtkWarningMacro(<< choice.what() << " Until then the output is the input.");
   }
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }

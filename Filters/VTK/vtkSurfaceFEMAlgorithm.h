@@ -11,6 +11,8 @@
  * - An input without points gives empty outputs, silently.
  * - An unusable input gives one error message and empty outputs. RequestData returns 0, and the
  *   error code is vtkErrorCode::UnknownError. The pipeline prints no message of its own.
+ * - If the user has not chosen something that the filter needs, it warns, and its output is the
+ *   input. On several MPI ranks and with BlocksAsOne this is an error.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
  * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not

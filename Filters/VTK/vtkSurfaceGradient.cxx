@@ -96,7 +96,7 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
         output->ShallowCopy(input);
         WriteArrays(result.derivatives, derivatives, output);
         WriteArrays(result.parts, parts, output);
-        output->GetPointData()->SetActiveScalars("Laplacian");
+        output->GetPointData()->SetActiveScalars(array.array ? "Gradient" : "Laplacian");
         if (array.array && array.array->GetNumberOfComponents() == 1)
         {
           output->GetPointData()->SetActiveVectors("Gradient");

@@ -79,6 +79,15 @@ inline vtkDoubleArray* AddPointArray(vtkPolyData* data, const char* name, int co
   return array;
 }
 
+/// Whether a filter has passed its input on: the same points and cells, without the result.
+inline bool PassesOn(vtkAlgorithm* filter, const char* result)
+{
+  auto* input = vtkPolyData::SafeDownCast(filter->GetInputDataObject(0, 0));
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  return output->GetPoints() == input->GetPoints() && output->GetPolys() == input->GetPolys() &&
+         !output->GetPointData()->HasArray(result) && !output->GetCellData()->HasArray(result);
+}
+
 /// Collects the messages of a filter, and silences the messages of its executive.
 class Messages
 {

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <utility>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -43,6 +45,18 @@ vtkSmartPointer<vtkPolyData> Ring(int around, int across)
     mesh.points[j * (around + 1) + around] = mesh.points[j * (around + 1)];
   }
   return ToPolyData(Transform(mesh, { 1, 2, 3 }, 0.3));
+}
+
+/// The filter names what it needs, and passes its input on until then.
+void ExpectToBeChosen(
+  vtkHarmonicInterpolation* filter, const char* message = "Choose a Value Array")
+{
+  Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_TRUE(messages.errors.empty());
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find(message), std::string::npos) << messages.warnings[0];
+  EXPECT_TRUE(PassesOn(filter, "Interpolated"));
 }
 
 class HarmonicInterpolation : public ::testing::TestWithParam<int>
@@ -283,10 +297,77 @@ TEST(HarmonicInterpolationFilter, TakesTheOnlyArrayThatIsKnownInPart)
 
   AddPointArray(sphere, "Other", 1, cap);
   sphere->Modified();
+  ExpectToBeChosen(filter);
+}
+
+/// A table of points and values gives the bits of an array with the same values. Rows whose point
+/// is not on the surface are named and left out, and an array that can be taken goes first.
+TEST(HarmonicInterpolationFilter, TakesATableOfPointsAndValues)
+{
+  const std::array<std::pair<vtkIdType, double>, 4> rows = { { { 0, -1.0 }, { 50, 3.0 },
+    { 51, 2.5 }, { 200, 0.5 } } };
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  const auto known = ToPolyData(GeodesicSphere(8));
+  AddPointArray(known, "Known", 1, [](const Vec3&, int) { return NaN; });
+  const auto filter = Interpolate(sphere, "None");
+  for (const auto& [point, value] : rows)
+  {
+    known->GetPointData()->GetArray("Known")->SetComponent(point, 0, value);
+    filter->AddKnownValue(static_cast<double>(point), value);
+  }
+  const auto expected = Interpolate(known, "Known");
+  expected->Update();
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Interpolated"),
+    PointValues(expected->GetOutput(), "Interpolated"));
+
   Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  filter->AddKnownValue(1e6, 9.0);
+  filter->AddKnownValue(3.5, 9.0);
+  filter->AddKnownValue(-1.0, 9.0);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("1e+06, 3.5, -1"), std::string::npos) << messages.warnings[0];
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Interpolated"),
+    PointValues(expected->GetOutput(), "Interpolated"));
+
+  filter->SetInputData(known);
+  filter->ClearKnownValues();
+  filter->AddKnownValue(7.0, 70.0);
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Interpolated"),
+    PointValues(expected->GetOutput(), "Interpolated"));
+}
+
+TEST(HarmonicInterpolationFilter, NeedsAPointOfTheSurfaceInItsTable)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  ExpectToBeChosen(Interpolate(sphere, "None"));
+  const auto outside = Interpolate(sphere, "None");
+  outside->AddKnownValue(-2.0, 1.0);
+  ExpectToBeChosen(outside, "No point of Known Values is on the surface");
+
+  const auto infinite = Interpolate(sphere, "None");
+  infinite->AddKnownValue(2.0, NaN);
+  Messages messages(infinite);
+  EXPECT_EQ(infinite->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Choose a Value Array"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("not finite"), std::string::npos);
+}
+
+/// Freeing the stages, as for less memory, keeps the table.
+TEST(HarmonicInterpolationFilter, KeepsItsTable)
+{
+  const auto filter = Interpolate(ToPolyData(GeodesicSphere(8)), "None");
+  filter->AddKnownValue(0.0, 1.0);
+  filter->AddKnownValue(9.0, 2.0);
+  filter->ReleaseDataFlagOn();
+  filter->Update();
+  const auto first = PointValues(filter->GetOutput(), "Interpolated");
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Interpolated"), first);
+  EXPECT_EQ(filter->GetNumberOfKnownValues(), 2);
 }
 
 TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
@@ -308,7 +389,7 @@ TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
     EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
     EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   };
-  expectRefused("None", "None", "Choose a Value Array");
+  ExpectToBeChosen(Interpolate(sphere, "None"));
   expectRefused("Nothing", "None", "all are NaN");
   expectRefused("Infinite", "None", "not finite");
   expectRefused("Value", "Zero", "masked");

@@ -204,12 +204,15 @@ void AddBytes(vtkPolyData* data)
   data->GetPointData()->AddArray(ids);
 }
 
+/// The filter names what it needs, and passes its input on until then.
 void ExpectToBeChosen(vtkStitchColors* filter, const char* property)
 {
   Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find(std::string("Choose a ") + property), std::string::npos);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_TRUE(messages.errors.empty());
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find(std::string("Choose a ") + property), std::string::npos);
+  EXPECT_TRUE(PassesOn(filter, "StitchedColors"));
 }
 
 } // namespace
@@ -377,8 +380,13 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   other->DeepCopy(data->GetPointData()->GetArray("Scan"));
   other->SetName("Other");
   data->GetPointData()->AddArray(other);
-  expectRefused("None", "Scan", "Choose a Color Array");
-  expectRefused("Seen", "None", "Choose a Label Array");
+  for (const auto& [colors, labels, property] :
+    { std::array{ "None", "Scan", "Color Array" }, std::array{ "Seen", "None", "Label Array" } })
+  {
+    const auto filter = Stitch(data, colors, 3);
+    filter->SetInputArrayToProcess(1, 0, 0, Points, labels);
+    ExpectToBeChosen(filter, property);
+  }
   expectRefused("Five", "Scan", "1 to 4");
   expectRefused("Seen", "Seen", "one component");
   expectRefused("Seen", "Halves", "integers");

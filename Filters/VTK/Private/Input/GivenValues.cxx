@@ -9,6 +9,7 @@
 #include "vtkDataSet.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace gridfem
 {
@@ -61,7 +62,7 @@ void RequirePointArray(
 {
   if (!array.array)
   {
-    throw InvalidInput("Choose a " + property + ". " + advice);
+    throw MissingChoice("Choose a " + property + ". " + advice);
   }
   if (array.association != FieldAssociation::Points)
   {
@@ -92,6 +93,35 @@ PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   {
     CopyFinite(array, given.points[row], given.values, row);
   }
+  return given;
+}
+
+PointValues TypedValues(
+  const std::vector<std::array<double, 2>>& rows, const TriangleMesh& mesh, std::string& outside)
+{
+  const std::vector<char> used = UsedPoints(mesh);
+  PointValues given;
+  std::vector<double> values;
+  for (const auto& [id, value] : rows)
+  {
+    if (!std::isfinite(value))
+    {
+      throw InvalidInput("Known Values has a value that is not finite.");
+    }
+    const bool isId = id >= 0.0 && id < static_cast<double>(used.size()) && std::floor(id) == id;
+    if (isId && used[static_cast<std::size_t>(id)])
+    {
+      given.points.push_back(static_cast<Id>(id));
+      values.push_back(value);
+    }
+    else
+    {
+      std::ostringstream text;
+      text << (outside.empty() ? "" : ", ") << id;
+      outside += text.str();
+    }
+  }
+  given.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Id>(values.size()));
   return given;
 }
 

@@ -5,6 +5,7 @@
 
 #include "Input/InputArray.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace gridfem
 
 class SelectedPoints;
 
-/// Throws InvalidInput if no array is chosen, or if it is cell data. The advice ends the message
-/// about a missing choice.
+/// Throws MissingChoice if no array is chosen, and InvalidInput if it is cell data. The advice ends
+/// the message about a missing choice.
 void RequirePointArray(
   const InputArray& array, const std::string& property, const std::string& advice);
 
@@ -30,6 +31,11 @@ PointValues KnownValues(const InputArray& array, const InputArray& mask,
 /// Does the same if no value need be known, as on one of several ranks.
 PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh);
+
+/// The values of a table with the id of a point and its value in each row.
+/// @param outside  gets the ids without a point on the surface, which do not count
+PointValues TypedValues(
+  const std::vector<std::array<double, 2>>& rows, const TriangleMesh& mesh, std::string& outside);
 
 /// Throws InvalidInput if no value is known.
 void RequireKnown(bool isAnyKnown, const InputArray& array);

@@ -35,7 +35,7 @@ bool IsChosen(vtkInformation* choice, vtkDataSet* input)
     return true;
   }
   const std::string name = ChosenName(choice);
-  return !name.empty() && (name != "None" || HasArray(input, name));
+  return !MeansNoArray(name) || (!name.empty() && HasArray(input, name));
 }
 
 std::string ArrayNames(vtkDataSetAttributes* attributes)
@@ -127,6 +127,11 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector&
 }
 
 } // namespace
+
+bool MeansNoArray(const std::string& name)
+{
+  return name.empty() || name == "None" || name.compare(0, 5, "(None") == 0;
+}
 
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property)

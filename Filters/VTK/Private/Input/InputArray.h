@@ -36,10 +36,21 @@ struct MissingArray : InvalidInput
   std::string array;
 };
 
+/// Thrown if the user has not chosen something that the filter needs. The filter then passes its
+/// input on, with the message as a warning.
+struct MissingChoice : InvalidInput
+{
+  using InvalidInput::InvalidInput;
+};
+
+/// Whether a name stands for no array: it is empty, "None", or begins with "(None" as in the lists
+/// of the panels, where it comes before the names of arrays.
+bool MeansNoArray(const std::string& name);
+
 /// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
-/// chosen. An empty name or "None" chooses none, unless an array has that name. Throws MissingArray
-/// if the chosen array does not exist. Throws InvalidInput if it is not numeric, is neither point
-/// nor cell data, or has the wrong length. `property` is its name in the message.
+/// chosen. A name that MeansNoArray chooses none, unless an array has that name. Throws
+/// MissingArray if the chosen array does not exist. Throws InvalidInput if it is not numeric, is
+/// neither point nor cell data, or has the wrong length. `property` is its name in the message.
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
 

@@ -2,6 +2,7 @@
 
 #include "Input/BasisReader.h"
 #include "Input/Domain.h"
+#include "Input/InputArray.h"
 #include "Pieces/Ranks.h"
 #include "Pipeline/InputSurface.h"
 #include "vtkSurfaceFEMAlgorithm.h"
@@ -88,7 +89,7 @@ bool HasPolygons(vtkPolyData* piece)
 bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index)
 {
   const char* name = filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
-  return name && *name && std::string(name) != "None";
+  return name && !MeansNoArray(name);
 }
 
 bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll)
