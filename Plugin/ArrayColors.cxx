@@ -1,5 +1,8 @@
 #include "ArrayColors.h"
 
+#include "ColorMaps.h"
+#include "Watch.h"
+
 #include "vtkClientServerInterpreter.h"
 #include "vtkClientServerInterpreterInitializer.h"
 #include "vtkCommand.h"
@@ -8,17 +11,24 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyInitializationHelper.h"
+#include "vtkSMProxyIterator.h"
+#include "vtkSMProxyManager.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMTransferFunctionProxy.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,43 +39,34 @@ enum class Colors
 {
   Diverging,
   Sequential,
+  Stripes,
   Categorical
 };
 
-/// ColorBrewer's Set2 and, in the same order of hues, Dark2.
-constexpr unsigned char Categories[16][3] = { { 102, 194, 165 }, { 252, 141, 98 },
-  { 141, 160, 203 }, { 231, 138, 195 }, { 166, 216, 84 }, { 255, 217, 47 }, { 229, 196, 148 },
-  { 179, 179, 179 }, { 27, 158, 119 }, { 217, 95, 2 }, { 117, 112, 179 }, { 231, 41, 138 },
-  { 102, 166, 30 }, { 230, 171, 2 }, { 166, 118, 29 }, { 102, 102, 102 } };
+constexpr const char* MapEnding = ".PVLookupTable"; // of the name under which a map is registered
 
-/// Does not look at the array again, because its values are known: 0 to 7, or 0 to 15.
-void SetCategories(vtkSMProxy* map, bool all)
+/// Which arrays have which colors.
+struct Choice
 {
-  const unsigned int count = all ? 16 : 8;
-  std::vector<double> points;
-  for (unsigned int value = 0; value < count; ++value)
+  std::string array; // ends in *: all that begin so
+  Colors colors = Colors::Diverging;
+  bool stepsApart = false;
+
+  bool Fits(const std::string& name) const
   {
-    points.push_back(value);
-    for (unsigned char channel : Categories[value])
-    {
-      points.push_back(channel / 255.0);
-    }
+    const bool isStart = !array.empty() && array.back() == '*';
+    return isStart ? name.compare(0, array.size() - 1, array, 0, array.size() - 1) == 0
+                   : name == array;
   }
-  vtkSMPropertyHelper(map, "RGBPoints")
-    .Set(points.data(), static_cast<unsigned int>(points.size()));
-  // There are as many entries as values, one for each value. Annotated values would look the same,
-  // but are looked up one by one.
-  vtkSMPropertyHelper(map, "Discretize").Set(1);
-  vtkSMPropertyHelper(map, "NumberOfTableValues").Set(static_cast<int>(count));
-  vtkSMPropertyHelper(map, "ScalarRangeInitialized").Set(1);
-  map->UpdateVTKObjects();
-}
+};
 
-/// The color map of the arrays with this name, or null if there is none.
-vtkSMProxy* FindMap(const std::string& array, vtkSMSessionProxyManager* proxies)
+struct Range
 {
-  return proxies->GetProxy("lookup_tables", (array + ".PVLookupTable").c_str());
-}
+  double low = 0.0;
+  double high = -1.0; // below low: no range
+
+  bool IsKnown() const { return low <= high; }
+};
 
 bool UserHasColors(const std::string& array)
 {
@@ -74,89 +75,185 @@ bool UserHasColors(const std::string& array)
          settings->HasSetting((".array_lookup_tables." + array).c_str());
 }
 
-/// Widens the range symmetrically about 0 until it holds the range of the data. A range that the
-/// user has chosen or locked stays.
-void KeepZeroInTheMiddle(vtkSMProxy* map, const double dataRange[2])
+/// The range that a color map should have for an array. Unknown for several components.
+Range WantedRange(vtkPVArrayInformation* array, Colors colors)
 {
+  Range range;
+  if (array->GetNumberOfComponents() == 1 && colors != Colors::Categorical)
+  {
+    double ends[2];
+    array->GetComponentFiniteRange(0, ends);
+    range = { ends[0], ends[1] };
+  }
+  if (range.IsKnown() && (colors == Colors::Diverging || range.low < 0.0))
+  {
+    const double largest = std::max(std::abs(range.low), std::abs(range.high));
+    range = largest > 0.0 ? Range{ -largest, largest } : Range();
+  }
+  return range;
+}
+
+/// The range that this class has given to a map is noted with the map, also in states.
+constexpr const char* RangeNote = "GridFEM.Range";
+
+void SetRange(vtkSMProxy* map, const Range& wanted, bool grows)
+{
+  vtkSMTransferFunctionProxy::RescaleTransferFunction(map, wanted.low, wanted.high, grows);
   double range[2];
-  if (!vtkSMTransferFunctionProxy::GetRange(map, range))
+  if (vtkSMTransferFunctionProxy::GetRange(map, range))
   {
-    return;
-  }
-  const bool isNew = vtkSMPropertyHelper(map, "ScalarRangeInitialized").GetAsInt() == 0;
-  const bool isLocked = vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").GetAsInt() ==
-                        vtkSMTransferFunctionManager::NEVER;
-  if (!isNew && (isLocked || range[0] != -range[1]))
-  {
-    return;
-  }
-  const double largest = std::max(std::abs(dataRange[0]), std::abs(dataRange[1]));
-  if (largest > 0.0)
-  {
-    vtkSMTransferFunctionProxy::RescaleTransferFunction(map, -largest, largest, !isNew);
+    std::ostringstream note;
+    note.precision(17);
+    note << range[0] << ' ' << range[1];
+    map->SetAnnotation(RangeNote, note.str().c_str());
   }
 }
 
-/// Looks at the array after every run of the filter, before ParaView shows it.
-class ArrayObserver : public vtkCommand
+/// Whether the range of a map is as this class has set it, and may change.
+bool HasOurRange(vtkSMProxy* map)
+{
+  double range[2];
+  double noted[2];
+  const char* note = map->GetAnnotation(RangeNote);
+  if (!note || !vtkSMTransferFunctionProxy::GetRange(map, range) ||
+      vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").GetAsInt() ==
+        vtkSMTransferFunctionManager::NEVER)
+  {
+    return false;
+  }
+  std::istringstream(note) >> noted[0] >> noted[1];
+  const double tolerance = 1e-6 * (noted[1] - noted[0]);
+  return std::abs(range[0] - noted[0]) <= tolerance && std::abs(range[1] - noted[1]) <= tolerance;
+}
+
+/// Whether something visible uses a map besides a filter. The filter's input will be hidden.
+bool IsUsedElsewhere(vtkSMProxy* map, vtkSMSourceProxy* filter)
+{
+  const vtkSMProxy* hidden = vtkSMPropertyHelper(filter, "Input", true).GetAsProxy();
+  vtkNew<vtkSMProxyIterator> each;
+  each->SetSessionProxyManager(filter->GetSessionProxyManager());
+  each->SetModeToOneGroup();
+  for (each->Begin("representations"); !each->IsAtEnd(); each->Next())
+  {
+    vtkSMProxy* shown = each->GetProxy();
+    const vtkSMProxy* source = vtkSMPropertyHelper(shown, "Input", true).GetAsProxy();
+    if (source && source != filter && source != hidden &&
+        vtkSMPropertyHelper(shown, "Visibility", true).GetAsInt() != 0 &&
+        vtkSMPropertyHelper(shown, "LookupTable", true).GetAsProxy() == map)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Gives a new map the colors of an array.
+void SetColors(vtkSMProxy* map, vtkPVArrayInformation* array, Colors colors)
+{
+  const bool isMagnitude = array->GetNumberOfComponents() > 1;
+  const bool hasNegative = !isMagnitude && array->GetComponentFiniteRange(0)[0] < 0.0;
+  if (colors == Colors::Categorical)
+  {
+    gridfem::SetCategories(map, array->GetComponentFiniteRange(0)[1] > 7.0);
+  }
+  else if (colors == Colors::Stripes && !hasNegative)
+  {
+    gridfem::SetStripes(map);
+  }
+  else if (isMagnitude || (colors == Colors::Sequential && !hasNegative))
+  {
+    vtkSMTransferFunctionProxy::ApplyPreset(map, "Viridis (matplotlib)", true);
+  }
+}
+
+/// Follows the arrays of one filter.
+class ArrayFollower
 {
 public:
-  vtkTypeMacro(ArrayObserver, vtkCommand);
-  static ArrayObserver* New() { return new ArrayObserver; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
+  ArrayFollower(vtkSMSourceProxy* filter, Choice choice)
+    : filter_(filter), choice_(std::move(choice))
   {
-    auto* filter = vtkSMSourceProxy::SafeDownCast(caller);
-    vtkPVDataInformation* data = filter ? filter->GetDataInformation(0) : nullptr;
-    for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
+  }
+
+  /// Notes that the filter has other properties than in its last run.
+  void NoteChange(const char* property)
+  {
+    vtkSMProperty* changed = filter_ && property ? filter_->GetProperty(property) : nullptr;
+    hasChanged_ = hasChanged_ || (changed && !changed->GetInformationOnly());
+  }
+
+  /// Fits the ranges of the maps to the data of the last run.
+  void FitRanges()
+  {
+    const bool grows = !hasChanged_ && !choice_.stepsApart && this->GetTime() != time_;
+    for (vtkPVArrayInformation* array : this->Arrays())
     {
-      vtkPVArrayInformation* array =
-        data ? data->GetArrayInformation(this->Array.c_str(), association) : nullptr;
-      if (array && array->GetNumberOfComponents() == 1)
+      vtkSMProxy* map = filter_->GetSessionProxyManager()->GetProxy(
+        "lookup_tables", (array->GetName() + std::string(MapEnding)).c_str());
+      const Range wanted = WantedRange(array, choice_.colors);
+      if (map && wanted.IsKnown() && HasOurRange(map))
       {
-        this->Show(filter->GetSessionProxyManager(), array);
-        return;
+        SetRange(map, wanted, grows || IsUsedElsewhere(map, filter_));
       }
     }
+    hasChanged_ = false;
+    time_ = this->GetTime();
   }
 
-  std::string Array;
-  Colors Kind = Colors::Diverging;
+  /// Called with the name of each color map as it is made.
+  /// @return  whether the filter is gone
+  bool Color(const std::string& name, vtkSMProxy* map)
+  {
+    if (!filter_)
+    {
+      return true;
+    }
+    for (vtkPVArrayInformation* array : this->Arrays())
+    {
+      if (name == array->GetName() + std::string(MapEnding) && !UserHasColors(array->GetName()))
+      {
+        SetColors(map, array, choice_.colors);
+        const Range wanted = WantedRange(array, choice_.colors);
+        if (wanted.IsKnown())
+        {
+          SetRange(map, wanted, false);
+        }
+      }
+    }
+    return false;
+  }
 
 private:
-  void Show(vtkSMSessionProxyManager* proxies, vtkPVArrayInformation* array)
+  double GetTime() const { return filter_->GetDataInformation(0)->GetTime(); }
+
+  /// The arrays that fit, with points before cells: a map serves both arrays of a name.
+  std::vector<vtkPVArrayInformation*> Arrays() const
   {
-    double range[2];
-    array->GetComponentFiniteRange(0, range);
-    if (!(range[0] <= range[1]))
+    std::vector<vtkPVArrayInformation*> found;
+    vtkPVDataInformation* data = filter_->GetDataInformation(0);
+    for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
     {
-      return;
+      vtkPVDataSetAttributesInformation* all =
+        data ? data->GetAttributeInformation(association) : nullptr;
+      for (int k = 0; all && k < all->GetNumberOfArrays(); ++k)
+      {
+        vtkPVArrayInformation* array = all->GetArrayInformation(k);
+        const bool isKnown = std::any_of(found.begin(), found.end(),
+          [array](auto* other)
+          { return array->GetName() && array->GetName() == std::string(other->GetName()); });
+        if (array->GetName() && !isKnown && choice_.Fits(array->GetName()))
+        {
+          found.push_back(array);
+        }
+      }
     }
-    vtkSMProxy* map = FindMap(this->Array, proxies);
-    if (!map && !UserHasColors(this->Array))
-    {
-      map = this->MakeMap(proxies, range);
-    }
-    if (map && (this->Kind == Colors::Diverging || range[0] < 0.0))
-    {
-      KeepZeroInTheMiddle(map, range);
-    }
+    return found;
   }
 
-  vtkSMProxy* MakeMap(vtkSMSessionProxyManager* proxies, const double range[2]) const
-  {
-    vtkNew<vtkSMTransferFunctionManager> manager;
-    vtkSMProxy* map = manager->GetColorTransferFunction(this->Array.c_str(), proxies);
-    if (map && this->Kind == Colors::Sequential && range[0] >= 0.0)
-    {
-      vtkSMTransferFunctionProxy::ApplyPreset(map, "Viridis (matplotlib)", true);
-    }
-    else if (map && this->Kind == Colors::Categorical)
-    {
-      SetCategories(map, range[1] > 7.0);
-    }
-    return map;
-  }
+  vtkWeakPointer<vtkSMSourceProxy> filter_;
+  Choice choice_;
+  double time_ = 0.0;
+  bool hasChanged_ = true;
 };
 
 class vtkSMArrayColors : public vtkSMProxyInitializationHelper
@@ -167,13 +264,39 @@ public:
 
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
+    Choice choice;
     const std::string colors = xml->GetAttributeOrEmpty("colors");
-    vtkNew<ArrayObserver> observer;
-    observer->Array = xml->GetAttributeOrEmpty("array");
-    observer->Kind = colors == "sequential"    ? Colors::Sequential
-                     : colors == "categorical" ? Colors::Categorical
-                                               : Colors::Diverging;
-    proxy->AddObserver(vtkCommand::UpdateDataEvent, observer);
+    choice.array = xml->GetAttributeOrEmpty("array");
+    choice.stepsApart = xml->GetAttributeOrEmpty("steps") == std::string("apart");
+    choice.colors = colors == "sequential"    ? Colors::Sequential
+                    : colors == "stripes"     ? Colors::Stripes
+                    : colors == "categorical" ? Colors::Categorical
+                                              : Colors::Diverging;
+    if (choice.colors == Colors::Stripes && gridfem::HasWindow())
+    {
+      gridfem::OfferStripes();
+    }
+    const auto follower =
+      std::make_shared<ArrayFollower>(vtkSMSourceProxy::SafeDownCast(proxy), choice);
+    gridfem::Watch(proxy, vtkCommand::PropertyModifiedEvent,
+      [follower](void* name)
+      {
+        follower->NoteChange(static_cast<const char*>(name));
+        return false;
+      });
+    gridfem::Watch(proxy, vtkCommand::UpdateDataEvent,
+      [follower](void*)
+      {
+        follower->FitRanges();
+        return false;
+      });
+    gridfem::Watch(proxy->GetSessionProxyManager(), vtkCommand::RegisterEvent,
+      [follower](void* data)
+      {
+        const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
+        return made->GroupName == std::string("lookup_tables") && made->ProxyName && made->Proxy &&
+               follower->Color(made->ProxyName, made->Proxy);
+      });
   }
 };
 
@@ -190,6 +313,11 @@ void AddToInterpreter(vtkClientServerInterpreter* interpreter)
 }
 
 } // namespace
+
+bool gridfem::HasRangeOfHint(vtkSMProxy* map)
+{
+  return map && map->GetAnnotation(RangeNote);
+}
 
 void gridfem::RegisterArrayColors()
 {

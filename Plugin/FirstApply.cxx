@@ -1,6 +1,9 @@
 #include "FirstApply.h"
 
+#include "ArrayColors.h"
 #include "ParaViewVersions.h"
+#include "Views.h"
+#include "Watch.h"
 
 #include "vtkClientServerInterpreter.h"
 #include "vtkClientServerInterpreterInitializer.h"
@@ -15,7 +18,6 @@
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyInitializationHelper.h"
-#include "vtkSMProxyIterator.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMProxySelectionModel.h"
 #include "vtkSMRepresentationProxy.h"
@@ -32,64 +34,12 @@
 namespace
 {
 
-/// Calls a function at each event of a kind, until it returns true.
-class Watcher : public vtkCommand
-{
-public:
-  vtkTypeMacro(Watcher, vtkCommand);
-  static Watcher* New() { return new Watcher; }
-
-  void Execute(vtkObject* caller, unsigned long, void* data) override
-  {
-    if (this->IsBusy) // the function causes events as well
-    {
-      return;
-    }
-    this->IsBusy = true;
-    if (this->IsDone(data))
-    {
-      caller->RemoveObserver(this);
-    }
-    this->IsBusy = false;
-  }
-
-  std::function<bool(void*)> IsDone;
-
-private:
-  bool IsBusy = false;
-};
-
-void Watch(vtkObject* object, unsigned long event, std::function<bool(void*)> isDone)
-{
-  vtkNew<Watcher> watcher;
-  watcher->IsDone = std::move(isDone);
-  object->AddObserver(event, watcher);
-}
-
-/// Whether ParaView's window is in use. Only there changes can be undone.
-bool HasWindow()
-{
-  return vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder() != nullptr;
-}
-
-/// The views that show a port of a filter, with their representations.
-std::vector<std::pair<vtkSMViewProxy*, vtkSMProxy*>> ViewsOf(vtkSMSourceProxy* filter, int port)
-{
-  std::vector<std::pair<vtkSMViewProxy*, vtkSMProxy*>> views;
-  vtkNew<vtkSMProxyIterator> each;
-  each->SetSessionProxyManager(filter->GetSessionProxyManager());
-  each->SetModeToOneGroup();
-  for (each->Begin("views"); !each->IsAtEnd(); each->Next())
-  {
-    auto* view = vtkSMViewProxy::SafeDownCast(each->GetProxy());
-    vtkSMProxy* shown = view ? view->FindRepresentation(filter, port) : nullptr;
-    if (shown && vtkSMPropertyHelper(shown, "Visibility", true).GetAsInt() != 0)
-    {
-      views.emplace_back(view, shown);
-    }
-  }
-  return views;
-}
+using gridfem::HasWindow;
+using gridfem::ShowsPort;
+using gridfem::ViewsOf;
+using gridfem::Watch;
+using gridfem::WhenFirstShown;
+using gridfem::WhenShown;
 
 /// Activates a view that shows port 0.
 void ActivateFirstPort(vtkSMSourceProxy* filter)
@@ -101,53 +51,6 @@ void ActivateFirstPort(vtkSMSourceProxy* filter)
   {
     active->SetCurrentProxy(views.front().first, vtkSMProxySelectionModel::CLEAR_AND_SELECT);
   }
-}
-
-bool ShowsPort(vtkSMProxy* representation, vtkSMSourceProxy* filter, int port)
-{
-  const vtkSMPropertyHelper input(representation, "Input", true);
-  return input.GetNumberOfElements() == 1 && input.GetAsProxy() == filter &&
-         static_cast<int>(input.GetOutputPort()) == port;
-}
-
-/// Calls a function with the first representation of a port of a filter, before it is drawn.
-void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
-  const std::function<void(vtkSMProxy*)>& act)
-{
-  Watch(filter->GetSessionProxyManager(), vtkCommand::RegisterEvent,
-    [filter, port, act](void* data)
-    {
-      if (!filter)
-      {
-        return true;
-      }
-      const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
-      auto* representation = vtkSMRepresentationProxy::SafeDownCast(made->Proxy);
-      // Axes around the data have the same input, and are registered earlier, among helpers.
-      if (!representation || made->GroupName != std::string("representations") ||
-          !ShowsPort(representation, filter, port))
-      {
-        return false;
-      }
-      act(representation);
-      return true;
-    });
-}
-
-/// Does the same after the first data of the filter, if ParaView has a window.
-void WhenFirstShown(
-  vtkSMProxy* proxy, int port, std::function<void(vtkSMProxy* shown, vtkSMSourceProxy* filter)> act)
-{
-  const vtkWeakPointer<vtkSMSourceProxy> filter = vtkSMSourceProxy::SafeDownCast(proxy);
-  Watch(proxy, vtkCommand::UpdateDataEvent,
-    [filter, port, act = std::move(act)](void*)
-    {
-      if (HasWindow())
-      {
-        WhenShown(filter, port, [filter, act](vtkSMProxy* shown) { act(shown, filter); });
-      }
-      return true;
-    });
 }
 
 class vtkSMOpensBeside : public vtkSMProxyInitializationHelper
@@ -162,18 +65,22 @@ public:
   {
     int port = 1;
     xml->GetScalarAttribute("port", &port);
-    WhenFirstShown(proxy, port, ReturnFrom);
+    WhenFirstShown(proxy, port,
+      [port](vtkSMProxy* chart, vtkSMSourceProxy* filter) { ReturnFrom(chart, filter, port); });
   }
 
 private:
-  static void ReturnFrom(vtkSMProxy* chart, const vtkWeakPointer<vtkSMSourceProxy>& filter)
+  static void ReturnFrom(
+    vtkSMProxy* chart, const vtkWeakPointer<vtkSMSourceProxy>& filter, int port)
   {
     Watch(chart, vtkCommand::UpdateDataEvent,
-      [filter](void*)
+      [filter, port](void*)
       {
         if (filter)
         {
           ActivateFirstPort(filter);
+          gridfem::FitCameras(filter);
+          gridfem::CloseWithFilter(filter, port);
         }
         return true;
       });
@@ -257,20 +164,19 @@ public:
     const std::string direct = xml->GetAttributeOrEmpty("direct");
     auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
     Watch(proxy, vtkCommand::UpdateDataEvent,
-      [filter, name, direct](void*)
+      [filter, name, direct, isFirst = true, wereColors = false](void*) mutable
       {
         vtkPVDataInformation* data = filter ? filter->GetDataInformation(0) : nullptr;
         for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
         {
           vtkPVArrayInformation* array =
-            data ? data->GetArrayInformation(name.c_str(), association) : nullptr;
+            data && HasWindow() ? data->GetArrayInformation(name.c_str(), association) : nullptr;
           if (array)
           {
-            if (HasWindow())
-            {
-              ColorBy(filter, array, association, AreColors(array, direct));
-            }
-            return true;
+            const bool areColors = AreColors(array, direct);
+            ColorBy(filter, array, association, areColors, isFirst, areColors != wereColors);
+            isFirst = false;
+            wereColors = areColors;
           }
         }
         return false;
@@ -278,30 +184,54 @@ public:
   }
 
 private:
-  /// The representation that shows the filter already. If ParaView's own choice is wrong, a later
-  /// one.
-  static void ColorBy(
-    vtkSMSourceProxy* filter, vtkPVArrayInformation* array, int association, bool areColors)
+  /// The representation that shows the filter already, if it has no coloring yet, has lost its
+  /// array, or its array has become colors. If ParaView's own choice is wrong, a later
+  /// representation.
+  static void ColorBy(vtkSMSourceProxy* filter, vtkPVArrayInformation* array, int association,
+    bool areColors, bool isFirst, bool isOther)
   {
     const auto views = ViewsOf(filter, 0);
     for (const auto& [view, shown] : views)
     {
-      if (shown->GetProperty("ColorArrayName") && !gridfem::Coloring::GetUsingScalarColoring(shown))
+      const bool isColored = gridfem::Coloring::GetUsingScalarColoring(shown);
+      if (shown->GetProperty("ColorArrayName") &&
+          (isColored ? HasLostItsArray(shown, filter) || (isOther && IsColoredBy(shown, array))
+                     : isFirst))
       {
+        if (isColored)
+        {
+          gridfem::Coloring::SetScalarBarVisibility(shown, view, false);
+        }
         vtkSMPropertyHelper(shown, "MapScalars", true).Set(areColors ? 0 : 1);
         gridfem::Coloring::SetScalarColoring(shown, array->GetName(), association);
-        gridfem::Coloring::RescaleTransferFunctionToDataRange(shown, false, false);
+        if (!gridfem::HasRangeOfHint(vtkSMPropertyHelper(shown, "LookupTable").GetAsProxy()))
+        {
+          gridfem::Coloring::RescaleTransferFunctionToDataRange(shown, false, false);
+        }
         if (!areColors && ShowsColorBars(filter->GetSessionProxyManager()))
         {
           gridfem::Coloring::SetScalarBarVisibility(shown, view, true);
         }
       }
     }
-    if (areColors && views.empty())
+    if (areColors && isFirst && views.empty())
     {
       const vtkWeakPointer<vtkSMSourceProxy> weak = filter;
       WhenShown(weak, 0, [weak](vtkSMProxy* shown) { ShowDirectly(shown, weak); });
     }
+  }
+
+  static bool IsColoredBy(vtkSMProxy* shown, vtkPVArrayInformation* array)
+  {
+    return array->GetName() ==
+           std::string(vtkSMPropertyHelper(shown, "ColorArrayName").GetInputArrayNameToProcess());
+  }
+
+  static bool HasLostItsArray(vtkSMProxy* shown, vtkSMSourceProxy* filter)
+  {
+    const vtkSMPropertyHelper colors(shown, "ColorArrayName");
+    return !filter->GetDataInformation(0)->GetArrayInformation(
+      colors.GetInputArrayNameToProcess(), colors.GetInputArrayAssociation());
   }
 
   /// ParaView shows a color bar before or after it has drawn the data for the first time.
@@ -350,36 +280,6 @@ private:
 };
 
 vtkStandardNewMacro(vtkSMColorsLater);
-
-class vtkSMShowsEdges : public vtkSMProxyInitializationHelper
-{
-public:
-  static vtkSMShowsEdges* New();
-  vtkTypeMacro(vtkSMShowsEdges, vtkSMProxyInitializationHelper);
-
-  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
-  {
-    int most = 0;
-    xml->GetScalarAttribute("most", &most);
-    WhenFirstShown(proxy, 0,
-      [most](vtkSMProxy* shown, vtkSMSourceProxy* filter) { ShowEdges(shown, filter, most); });
-  }
-
-private:
-  static void ShowEdges(vtkSMProxy* shown, vtkSMSourceProxy* filter, vtkIdType most)
-  {
-    const vtkIdType cells = filter->GetDataInformation(0)->GetNumberOfCells();
-    const vtkSMPropertyHelper type(shown, "Representation", true);
-    if (type.GetNumberOfElements() == 1 && type.GetAsString() == std::string("Surface") &&
-        cells > 0 && cells <= most)
-    {
-      vtkSMPropertyHelper(shown, "Representation").Set("Surface With Edges");
-      shown->UpdateVTKObjects();
-    }
-  }
-};
-
-vtkStandardNewMacro(vtkSMShowsEdges);
 
 class vtkSMAxisTitles : public vtkSMProxyInitializationHelper
 {
@@ -432,7 +332,6 @@ void AddToInterpreter(vtkClientServerInterpreter* interpreter)
   interpreter->AddNewInstanceFunction("vtkSMOpensBeside", NewHelper<vtkSMOpensBeside>);
   interpreter->AddNewInstanceFunction("vtkSMShowsLastStep", NewHelper<vtkSMShowsLastStep>);
   interpreter->AddNewInstanceFunction("vtkSMColorsLater", NewHelper<vtkSMColorsLater>);
-  interpreter->AddNewInstanceFunction("vtkSMShowsEdges", NewHelper<vtkSMShowsEdges>);
   interpreter->AddNewInstanceFunction("vtkSMAxisTitles", NewHelper<vtkSMAxisTitles>);
 }
 

@@ -5,20 +5,19 @@
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
 //     <InitializationHelper class="vtkSMShowsLastStep" />
 //     <InitializationHelper class="vtkSMColorsLater" array="StitchedColors" direct="fractions" />
-//     <InitializationHelper class="vtkSMShowsEdges" most="20000" />
 //   </Hints>
 //
 //   vtkSMOpensBeside    the first Apply opens a view for this port beside the view of port 0. The
-//                       view of port 0 stays active, so it also shows the next filter
+//                       view of port 0 stays active, so it also shows the next filter. Its camera
+//                       is fitted. The new view is closed with the filter
 //   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, unless another
 //                       source has time steps that would change with it
-//   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it. ParaView looks only once,
-//                       when it first shows a filter, and the user may choose arrays later. The
-//                       user's own coloring stays. With direct="bytes", three or four bytes
-//                       are shown directly as colors, without a bar; with "fractions", so are
-//                       numbers from 0 to 1
-//   vtkSMShowsEdges     port 0 is first shown with edges if it has at most this number of cells,
-//                       because more edges would hide the colors
+//   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it, or has lost the array
+//   that
+//                       colored it. ParaView looks only once, when it first shows a filter, and the
+//                       user may choose arrays later. The user's own coloring stays. With
+//                       direct="bytes", three or four bytes are shown directly as colors, without a
+//                       bar; with "fractions", so are numbers from 0 to 1
 //
 // The XML of a chart has the hint:
 //

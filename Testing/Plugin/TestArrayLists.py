@@ -29,30 +29,36 @@ names.SetNumberOfTuples(output.GetNumberOfPoints())
 output.GetPointData().AddArray(names)
 """
 
-ANY = {"None", "Normals", "p1", "p3", "p4", "p6", "p9", "c1", "c3", "c4", "c6",
+# What stands in each list for no array, in parentheses, so that it comes first.
+NONE = "(None)"
+COORDINATES = "(None: coordinates)"
+AUTOMATIC = "(None: automatic)"
+MEANINGS = {"DomainArray": "(None: all)", "ColorArray": AUTOMATIC, ("StitchColors", "LabelArray"): AUTOMATIC,
+            ("HarmonicInterpolation", "ValueArray"): AUTOMATIC, "ValueArray": COORDINATES, "Array": COORDINATES}
+ANY = {"Normals", "p1", "p3", "p4", "p6", "p9", "c1", "c3", "c4", "c6",
        "c9"}
 EXPECTED = {  # those that are not named may offer any of these
     ("ScreenedPoisson", "ValueArray"): ANY,
-    ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p6", "p9", "c3", "c6", "c9"},
-    ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
-    ("ScreenedPoisson", "ValueWeightArray"): {"None", "p1", "c1"},
-    ("ScreenedPoisson", "ConstraintArray"): {"None", "p1"},
-    ("ScreenedPoisson", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
-    ("LaplaceSpectrum", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
-    ("ScreenedPoisson", "BoundaryFluxArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
-    ("StitchColors", "ColorArray"): {"None", "Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
-    ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
-    ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
-    ("HarmonicInterpolation", "MaskArray"): {"None", "p1"},
-    ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
-    ("SurfaceDetail", "DetailScaleArray"): {"None", "p1", "c1"},
+    ("ScreenedPoisson", "GradientArray"): {"Normals", "p3", "p6", "p9", "c3", "c6", "c9"},
+    ("ScreenedPoisson", "GradientScaleArray"): {"p1", "c1"},
+    ("ScreenedPoisson", "ValueWeightArray"): {"p1", "c1"},
+    ("ScreenedPoisson", "ConstraintArray"): {"p1"},
+    ("ScreenedPoisson", "MetricArray"): {"p6", "p9", "c6", "c9"},
+    ("LaplaceSpectrum", "MetricArray"): {"p6", "p9", "c6", "c9"},
+    ("ScreenedPoisson", "BoundaryFluxArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"},
+    ("StitchColors", "ColorArray"): {"Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
+    ("StitchColors", "LabelArray"): {"p1", "c1"},
+    ("HarmonicInterpolation", "ValueArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"},
+    ("HarmonicInterpolation", "MaskArray"): {"p1"},
+    ("SurfaceDetail", "ValueArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"},
+    ("SurfaceDetail", "DetailScaleArray"): {"p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
     ("HeatDiffusion", "Array"): ANY,
     ("HeatDiffusion", "HeatSourceArray"): ANY,
-    ("HeatDiffusion", "ConstraintArray"): {"None", "p1"},
-    ("GeodesicDistance", "SourceArray"): {"None", "p1"},
-    ("GeodesicDistance", "LabelArray"): {"None", "p1", "c1"},
-    ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"}}
+    ("HeatDiffusion", "ConstraintArray"): {"p1"},
+    ("GeodesicDistance", "SourceArray"): {"p1"},
+    ("GeodesicDistance", "LabelArray"): {"p1", "c1"},
+    ("SpectralSignatures", "ValueArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"}}
 
 
 class TestArrayLists(unittest.TestCase):
@@ -66,10 +72,13 @@ class TestArrayLists(unittest.TestCase):
                 domain = proxy.SMProxy.GetProperty(key).FindDomain("vtkSMArrayListDomain")
                 if domain:
                     seen.add((name, key))
-                    offered = {domain.GetString(k) for k in range(domain.GetNumberOfStrings())}
+                    strings = [domain.GetString(k) for k in range(domain.GetNumberOfStrings())]
+                    offered = set(strings[1:])
                     with self.subTest(proxy=name, property=key):
-                        self.assertGreater(len(offered), 1)
-                        expected = {"None", "p1", "c1"} if key == "DomainArray" else offered & ANY
+                        self.assertEqual(
+                            strings[0], MEANINGS.get((name, key), MEANINGS.get(key, NONE)))
+                        self.assertGreater(len(offered), 0)
+                        expected = {"p1", "c1"} if key == "DomainArray" else offered & ANY
                         self.assertEqual(offered, EXPECTED.get((name, key), expected))
         self.assertLessEqual(set(EXPECTED), seen)
 

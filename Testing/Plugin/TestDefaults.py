@@ -126,7 +126,7 @@ class TestDefaults(unittest.TestCase):
                     prop = proxy.SMProxy.GetProperty(key)
                     expected = 9 if key == "DomainArray" else INDICES.get((name, key), index)
                     self.assertEqual(prop.GetElement(0), str(expected))
-                    self.assertEqual(prop.GetElement(4), "None")
+                    self.assertRegex(prop.GetElement(4), r"^\(None(: \w+)?\)$")
 
     def test_every_range_is_the_class_range(self):
         compared = 0
@@ -181,6 +181,39 @@ class TestDefaults(unittest.TestCase):
                 self.assertTrue(shown & {"Depth", "SmoothingScale"})
                 # An array that a filter cannot do without is seen.
                 self.assertLessEqual(set(plugin.CHOICES.get(name, ())), shown)
+
+    def test_labels_say_what_a_special_number_means(self):
+        """The group of a property does, because the label of the property is its name in Python."""
+        told = 0
+        for name, proxy in self.proxies.items():
+            groups = [proxy.SMProxy.GetPropertyGroup(k)
+                      for k in range(proxy.SMProxy.GetNumberOfPropertyGroups())]
+            labels = {proxy.SMProxy.GetPropertyName(group.GetProperty(k)): group.GetXMLLabel()
+                      for group in groups for k in range(group.GetNumberOfProperties())}
+            for key in proxy.ListProperties():
+                domain = proxy.SMProxy.GetProperty(key).FindDomain("vtkSMIntRangeDomain")
+                is_special = domain and domain.GetMinimumExists(0) and domain.GetMinimum(0) == -1
+                if key == "Depth" or is_special:
+                    with self.subTest(proxy=name, property=key):
+                        label = proxy.SMProxy.GetProperty(key).GetXMLLabel()
+                        self.assertIn(f"{label} {'0' if key == 'Depth' else '-1'}: ", labels[key])
+                        told += 1
+        self.assertGreater(told, len(self.proxies))
+
+    def test_labels_are_the_names_of_scripts(self):
+        for name, _, key, prop in self.properties():
+            with self.subTest(proxy=name, property=key):
+                self.assertEqual(prop.GetXMLLabel().replace(" ", ""), key)
+
+    def test_lists_of_ids_are_advanced_and_other_inputs_are_offered(self):
+        for name, _, key, prop in self.properties():
+            with self.subTest(proxy=name, property=key):
+                if key == "SourcePointIds":
+                    self.assertEqual(prop.GetPanelVisibility(), "advanced")
+                if key in ("Sources", "Values", "Basis"):
+                    self.assertEqual(prop.GetPanelWidget(), "input_selector")
+                    self.assertEqual(
+                        prop.GetPanelVisibility(), "advanced" if key == "Basis" else "default")
 
     def test_every_filter_is_in_the_menu(self):
         for name, proxy in self.proxies.items():

@@ -27,7 +27,12 @@ COLORED_BY = {
     "SurfaceGradient": ("POINTS", "Laplacian")}
 ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 
-SHOWN_PORTS = {"LaplaceSpectrum": {0, 1}, "MeanCurvatureFlow": {0, 1}}
+# Signed arrays that a filter has besides the one that colors it first.
+SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIndex", "MinimumCurvature",
+                                  "MaximumCurvature"),
+          "SurfaceGradient": ("Laplacian",)}
+
+SHOWN_PORTS = {"ClipToOctree": {0, 2}, "LaplaceSpectrum": {0, 1}, "MeanCurvatureFlow": {0, 1}}
 
 
 class FirstApply(unittest.TestCase):
@@ -85,7 +90,7 @@ class FirstApply(unittest.TestCase):
 
     def test_axes_of_charts_have_titles_and_keep_those_of_the_user(self):
         for name, bottom, left in (("LaplaceSpectrum", "Mode", "Eigenvalue"),
-                                   ("MeanCurvatureFlow", "Flow time", "Sphericity"),
+                                   ("MeanCurvatureFlow", "Step", "Sphericity"),
                                    ("ScreenedPoisson", "Iteration", "log10 of the relative error")):
             proxy = self.apply(name)
             for own in ("", "mine"):
@@ -209,19 +214,78 @@ class ColorMaps(unittest.TestCase):
     def limits(colors):
         return colors.RGBPoints[0], colors.RGBPoints[-4]
 
-    def test_zero_is_in_the_middle_for_every_mode(self):
+    def assert_fits(self, colors, proxy, name):
+        """Asserts that the colors of a signed array go as far as its values, with 0 in the middle."""
+        low, high = self.limits(colors)
+        data = plugin.data(proxy).GetPointData().GetArray(name).GetRange()
+        self.assertNotAlmostEqual(data[0], -data[1])
+        self.assertEqual(low, -high)
+        self.assertAlmostEqual(high, max(-data[0], data[1]), delta=1e-6 * high)  # single precision
+
+    @staticmethod
+    def color_by(shown, name):
+        """Colors by a point array, as the list in the toolbar does."""
+        shown.SetScalarColoring(name, servermanager.GetAssociationFromString("POINTS"))
+        shown.RescaleTransferFunctionToDataRange(True, False)
+
+    def test_every_mode_has_its_own_range_whatever_was_shown_before(self):
         spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6, Mode=1)
-        colors = self.show(spectrum)
-        widest = 0.0
-        for mode in (1, 4, 2):
+        for mode in (1, 4, 2, 1):
             spectrum.Mode = mode
-            colors = self.show(spectrum)
+            self.assert_fits(self.show(spectrum), spectrum, "Mode")
+        spectrum.Mode = -1
+        for time in (4.0, 1.0):
+            spectrum.UpdatePipeline(time)
+            colors = simple.Show(spectrum, self.view).LookupTable
             low, high = self.limits(colors)
-            data = plugin.data(spectrum).GetPointData().GetArray("Mode").GetRange()
-            self.assertNotAlmostEqual(data[0], -data[1])
-            widest = max(widest, -data[0], data[1])
+            data = spectrum.PointData["Mode"].GetRange()
             self.assertEqual(low, -high)
-            self.assertAlmostEqual(high, widest, delta=1e-6 * widest)  # told in single precision
+            self.assertAlmostEqual(high, max(-data[0], data[1]), delta=1e-6 * high)
+
+    def test_all_modes_have_zero_in_the_middle_and_the_constant_is_not_first(self):
+        spectrum = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6, AllModes=1)
+        self.assertEqual(plugin.data(spectrum).GetPointData().GetScalars().GetName(), "Mode001")
+        shown = simple.Show(spectrum, self.view)
+        for name in ("Mode001", "Mode004"):
+            self.color_by(shown, name)
+            self.assert_fits(shown.LookupTable, spectrum, name)
+
+    def test_zero_is_in_the_middle_for_every_signed_array(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="exp(coordsX)")
+        for name, arrays in SIGNED.items():
+            proxy = getattr(simple, name)(Input=values)
+            if name == "SurfaceGradient":
+                proxy.Array = ["POINTS", "f"]
+                proxy.Depth = DEPTH
+            self.show(proxy)
+            shown = simple.Show(proxy, self.view)
+            for array in arrays:
+                with self.subTest(array=array):
+                    self.color_by(shown, array)
+                    self.assert_fits(shown.LookupTable, proxy, array)
+
+    def test_a_filter_does_not_inherit_the_range_of_a_deleted_one(self):
+        """The range of one that is still visible counts, and only as long as it is."""
+        large = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, DetailScale=5)
+        self.show(large)
+        small = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, DetailScale=1.1)
+        colors = self.show(small)
+        self.assert_fits(colors, large, "NormalDisplacement")
+        simple.Hide(large, self.view)
+        small.DetailScale = 1.2
+        self.assert_fits(self.show(small), small, "NormalDisplacement")
+        for proxy in (large, small):
+            simple.Delete(proxy)
+        last = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, DetailScale=1.05)
+        self.assert_fits(self.show(last), last, "NormalDisplacement")
+
+    def test_magnitudes_run_from_dark_to_light(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        gradient = simple.SurfaceGradient(Input=values, Array=["POINTS", "f"], Depth=DEPTH)
+        shown = simple.Show(gradient, self.view)
+        self.assertEqual(shown.ColorArrayName[1], "Gradient")
+        self.assertEqual(self.brightness(shown.LookupTable), sorted(self.brightness(shown.LookupTable)))
 
     def test_a_range_of_the_user_is_left_alone(self):
         spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6, Mode=1)
@@ -243,11 +307,22 @@ class ColorMaps(unittest.TestCase):
         shown = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
         self.assertEqual(list(shown.RGBPoints)[1:4], expected)
 
-    def test_distances_run_from_dark_to_light(self):
-        colors = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
+    @staticmethod
+    def brightness(colors):
         points = list(colors.RGBPoints)
-        brightness = [sum(points[k + 1:k + 4]) for k in range(0, len(points), 4)]
-        self.assertEqual(brightness, sorted(brightness))
+        return [sum(points[k + 1:k + 4]) for k in range(0, len(points), 4)]
+
+    def test_distances_run_from_dark_to_light_in_stripes(self):
+        """Each stripe has two ends of one color. The plain and the shaded stripes become lighter."""
+        colors = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
+        brightness = self.brightness(colors)
+        self.assertEqual(brightness[0::2], brightness[1::2])
+        stripes = brightness[0::2]
+        self.assertEqual(len(stripes), 20)
+        for kind in (stripes[0::2], stripes[1::2]):
+            self.assertEqual(kind, sorted(kind))
+        for plain, shaded in zip(stripes[2::2], stripes[1::2]):
+            self.assertLess(shaded, 0.9 * plain)
         self.assertEqual(self.limits(colors)[0], 0.0)
 
     def test_signed_distances_are_zero_in_the_middle(self):

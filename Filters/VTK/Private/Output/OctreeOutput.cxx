@@ -197,7 +197,7 @@ void WriteOctreeCells(const ClippedMesh& clipped, int level, int precision, int 
   VisitCoordinates(points, fill);
   output->SetPoints(points);
   output->SetCells(VTK_VOXEL, CellsOfConsecutivePoints(count, FunctionsPerPatch));
-  output->GetCellData()->SetScalars(levels);
+  output->GetCellData()->AddArray(levels);
 }
 
 void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,

@@ -1,0 +1,218 @@
+#include "FirstChoices.h"
+
+#include "Watch.h"
+
+#include "vtkClientServerInterpreter.h"
+#include "vtkClientServerInterpreterInitializer.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
+#include "vtkPVDataSetAttributesInformation.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMArrayListDomain.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyInitializationHelper.h"
+#include "vtkSMSourceProxy.h"
+#include "vtkSMStringVectorProperty.h"
+
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/// The source and the port that the filter's port 0 is connected to. Null if there is none.
+vtkSMSourceProxy* InputOf(vtkSMProxy* filter, int& port)
+{
+  const vtkSMPropertyHelper input(filter, "Input", true);
+  if (input.GetNumberOfElements() == 0)
+  {
+    return nullptr;
+  }
+  port = static_cast<int>(input.GetOutputPort());
+  return vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+}
+
+struct Array
+{
+  int association = vtkDataObject::POINT;
+  std::string name; // empty: none
+};
+
+/// The array that colors the input in a view.
+Array ColoringArray(vtkSMProxy* filter)
+{
+  int port = 0;
+  vtkSMSourceProxy* input = InputOf(filter, port);
+  if (input)
+  {
+    for (const auto& [view, shown] : gridfem::ViewsOf(input, port))
+    {
+      const vtkSMPropertyHelper colors(shown, "ColorArrayName", true);
+      const char* name =
+        colors.GetNumberOfElements() == 5 ? colors.GetInputArrayNameToProcess() : nullptr;
+      if (name && *name)
+      {
+        return { colors.GetInputArrayAssociation(), name };
+      }
+    }
+  }
+  return {};
+}
+
+/// Whether an array describes the geometry or numbers the points, so that no one wants to filter
+/// it.
+bool ServesTheMesh(vtkPVDataInformation* data, const Array& array)
+{
+  vtkPVDataSetAttributesInformation* attributes = data->GetAttributeInformation(array.association);
+  for (int kind : { vtkDataSetAttributes::NORMALS, vtkDataSetAttributes::TCOORDS,
+         vtkDataSetAttributes::GLOBALIDS, vtkDataSetAttributes::PEDIGREEIDS })
+  {
+    vtkPVArrayInformation* special =
+      attributes ? attributes->GetAttributeInformation(kind) : nullptr;
+    if (special && special->GetName() == array.name)
+    {
+      return true;
+    }
+  }
+  return array.name == "Normals" || array.name.compare(0, 3, "vtk") == 0;
+}
+
+/// The array that the list should begin with: the coloring one if it is offered, or else the only
+/// one.
+Array ChooseFrom(vtkSMArrayListDomain* list, const std::string& none, vtkPVDataInformation* data,
+  const Array& coloring)
+{
+  Array only;
+  int candidates = 0;
+  for (unsigned int k = 0; k < list->GetNumberOfStrings(); ++k)
+  {
+    const Array offered = { list->GetFieldAssociation(k), list->GetString(k) };
+    if (offered.name == none)
+    {
+      continue;
+    }
+    if (offered.name == coloring.name && offered.association == coloring.association)
+    {
+      return offered;
+    }
+    if (!ServesTheMesh(data, offered))
+    {
+      only = offered;
+      ++candidates;
+    }
+  }
+  return candidates == 1 ? only : Array();
+}
+
+/// Gives a property the value of a hint, unless it has another than its default.
+void SetNumber(vtkSMProperty* property, vtkPVXMLElement* hint)
+{
+  double value = 0.0;
+  if (property && property->IsValueDefault() && hint->GetScalarAttribute("value", &value))
+  {
+    vtkSMPropertyHelper(property).Set(value);
+  }
+}
+
+class vtkSMChoosesArray : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMChoosesArray* New();
+  vtkTypeMacro(vtkSMChoosesArray, vtkSMProxyInitializationHelper);
+
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    auto* property = vtkSMStringVectorProperty::SafeDownCast(
+      proxy->GetProperty(xml->GetAttributeOrEmpty("property")));
+    auto* list = property ? property->FindDomain<vtkSMArrayListDomain>() : nullptr;
+    int port = 0;
+    vtkSMSourceProxy* input = InputOf(proxy, port);
+    if (!gridfem::HasWindow() || !list || !input || !property->IsValueDefault())
+    {
+      return;
+    }
+    const Array array = ChooseFrom(
+      list, property->GetDefaultValue(4), input->GetDataInformation(port), ColoringArray(proxy));
+    vtkSMPropertyHelper choice(property);
+    if (!array.name.empty())
+    {
+      choice.SetInputArrayToProcess(array.association, array.name.c_str());
+      return;
+    }
+    SetNumber(proxy->GetProperty(xml->GetAttributeOrEmpty("otherwise")), xml);
+  }
+};
+
+vtkStandardNewMacro(vtkSMChoosesArray);
+
+class vtkSMChoosesNumber : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMChoosesNumber* New();
+  vtkTypeMacro(vtkSMChoosesNumber, vtkSMProxyInitializationHelper);
+
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    if (gridfem::HasWindow())
+    {
+      SetNumber(proxy->GetProperty(xml->GetAttributeOrEmpty("property")), xml);
+    }
+  }
+};
+
+vtkStandardNewMacro(vtkSMChoosesNumber);
+
+class vtkSMChoosesPoints : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMChoosesPoints* New();
+  vtkTypeMacro(vtkSMChoosesPoints, vtkSMProxyInitializationHelper);
+
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    constexpr vtkTypeInt64 Steps = 3; // between the points
+    vtkSMProperty* property = proxy->GetProperty(xml->GetAttributeOrEmpty("property"));
+    int port = 0;
+    vtkSMSourceProxy* input = InputOf(proxy, port);
+    vtkPVDataInformation* data = input ? input->GetDataInformation(port) : nullptr;
+    if (!gridfem::HasWindow() || !property || !property->IsValueDefault() || !data ||
+        data->IsCompositeDataSet() || !data->DataSetTypeIsA("vtkPolyData") ||
+        data->GetNumberOfPoints() <= Steps)
+    {
+      return;
+    }
+    std::vector<double> table;
+    for (vtkTypeInt64 k = 0; k <= Steps; ++k)
+    {
+      table.push_back(static_cast<double>(k * (data->GetNumberOfPoints() - 1) / Steps));
+      table.push_back(static_cast<double>(k));
+    }
+    vtkSMPropertyHelper(property).Set(table.data(), static_cast<unsigned int>(table.size()));
+  }
+};
+
+vtkStandardNewMacro(vtkSMChoosesPoints);
+
+template<class Choice>
+vtkObjectBase* NewChoice(void*)
+{
+  return Choice::New();
+}
+
+void AddChoices(vtkClientServerInterpreter* interpreter)
+{
+  interpreter->AddNewInstanceFunction("vtkSMChoosesArray", NewChoice<vtkSMChoosesArray>);
+  interpreter->AddNewInstanceFunction("vtkSMChoosesNumber", NewChoice<vtkSMChoosesNumber>);
+  interpreter->AddNewInstanceFunction("vtkSMChoosesPoints", NewChoice<vtkSMChoosesPoints>);
+}
+
+} // namespace
+
+void gridfem::RegisterFirstChoices()
+{
+  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(AddChoices);
+}

@@ -1,0 +1,59 @@
+"""Actions in ParaView's window, in the form that its test player plays."""
+PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
+PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
+MENUS = "pqClientMainWindow/menubar"
+
+
+class Script:
+    """A list of actions. States are saved in a folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.events = []
+
+    def event(self, widget, command, arguments=""):
+        self.events.append(f'  <pqevent object="{widget}" command="{command}" arguments="{arguments}" />')
+
+    def apply(self):
+        self.event(f"{PANEL}/Accept", "activate")
+
+    def open(self, path):
+        self.event(f"{MENUS}/menu_File", "activate", "actionFileOpen")
+        self.event("pqClientMainWindow/FileOpenDialog", "filesSelected", path)
+
+    def save(self, name):
+        self.event(f"{MENUS}/menu_File", "activate", "actionFileSaveServerState")
+        self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected", f"{self.folder}/{name}.pvsm")
+
+    def edit(self, what):
+        self.event(f"{MENUS}/menu_Edit", "activate", f"actionEdit{what}")
+
+    def delete(self):
+        self.event(f"{MENUS}/menu_Edit", "activate", "actionDelete")
+
+    def make(self, name):
+        """Makes a filter on what is active."""
+        self.event(f"{MENUS}/menuFilters/Surface FEM", "activate", name)
+
+    def enter(self, prop, value):
+        """Gives a property a value, in the widget that panels have for its kind."""
+        widget, command = f"{PROPERTIES}/{prop.GetXMLName()}", "set_string"
+        choices = prop.FindDomain("vtkSMEnumerationDomain")
+        numbers = prop.FindDomain("vtkSMDoubleRangeDomain")
+        if choices:
+            self.event(f"{widget}/ComboBox", command, choices.GetEntryTextForValue(int(value)))
+        elif prop.FindDomain("vtkSMArrayListDomain"):
+            self.event(f"{widget}/ComboBox", command, value)
+        elif prop.FindDomain("vtkSMBooleanDomain"):
+            self.event(f"{widget}/CheckBox", "set_boolean", "true" if value == "1" else "false")
+        elif not numbers:
+            has_range = prop.FindDomain("vtkSMIntRangeDomain").GetMaximumExists(0)
+            self.event(f"{widget}/IntRangeWidget/LineEdit" if has_range else f"{widget}/LineEdit0", command, value)
+        elif numbers.GetMaximumExists(0):
+            self.event(f"{widget}/DoubleRangeWidget/DoubleLineEdit", command, value)
+        else:
+            self.event(f"{widget}/DoubleLineEdit0", command, value)
+
+    def write(self, name):
+        with open(f"{self.folder}/{name}.xml", "w", encoding="utf-8") as file:
+            file.write("\n".join(["<pqevents>", *self.events, "</pqevents>\n"]))
