@@ -31,7 +31,7 @@ except ImportError:
     from ._with_vtk import solve as _solve_numbered, surface, triangulate as _triangulate
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "divergence", "farthest_points", "flow", "gradient", "interpolate", "poisson", "signatures",
+           "distance_matrix", "divergence", "farthest_points", "flow", "gradient", "interpolate", "path", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -118,6 +118,49 @@ def farthest_points(points, cells, number, **properties):
     results = _solve("FarthestPoints", points, cells, {}, {"NumberOfPoints": number, **properties})
     ids, nearest = (results[name].astype(numpy.int64) for name in ("FarthestPoints", "NearestPoint"))
     return ids, nearest, results["Distance"]
+
+
+def distance_matrix(points, cells, ids, **properties):
+    """Computes the distances along the surface between all points with the given ids, exactly on its triangles.
+
+    Returns a symmetric array (K, K) for K ids. It is NaN between connected components. `distance` is faster
+    for distances to all points of the surface.
+    """
+    ids = _inputs.ids("ids", ids)
+    if ids.size == 0:
+        raise Error("there are no ids")
+    found, number = numpy.unique(ids, return_inverse=True)
+    matrix = numpy.full((found.size, found.size), numpy.nan)
+    numpy.fill_diagonal(matrix, 0.0)
+    results = _solve("GeodesicPath", points, cells, {}, {"PathType": "AllPairs", **properties}, found)
+    if found.size > 1:  # the path of a single point leads to the farthest
+        ends = (numpy.searchsorted(found, results[name].astype(numpy.int64))
+                for name in ("SourceId", "TargetId"))
+        source, target = ends
+        matrix[source, target] = matrix[target, source] = results["Length"]
+    return matrix[number][:, number]
+
+
+def path(points, cells, ids, closed=False, **properties):
+    """Computes the shortest path along the surface through the points with the given ids, in their order.
+
+    closed: also from the last point to the first. Between two given points the path is locally
+    shortest, and exact in the triangles. Returns arrays of the shapes (K, 3), (K, 3), (K, 3): places
+    along the path, the corners of the triangle around each place, and their weights. The length is
+    `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`, and
+    `(weights * values[corners]).sum(axis=1)` are values at the points of the mesh along the path.
+    """
+    ids = _inputs.ids("ids", ids)
+    if ids.size < 2:
+        raise Error("a path leads through two points or more")
+    results = _solve("GeodesicPath", points, cells, {},
+                     {"PathType": "Closed" if closed else "InOrder", **properties}, ids)
+    if results["UnreachedTargets"].size:
+        raise Error(f"no path leads to the point {int(results['UnreachedTargets'][0])}, which is on "
+                    "another connected component")
+    corners, weights = results["CornerIds"].astype(numpy.int64), results["CornerWeights"]
+    places = (weights[:, :, None] * numpy.asarray(points, dtype=float)[corners]).sum(axis=1)
+    return places, corners, weights
 
 
 def diffuse(points, cells, values, time, held=None, source=None, **properties):

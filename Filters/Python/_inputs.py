@@ -79,6 +79,7 @@ def placed(name, values, points, cells):
 CHOICES = {
     "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
     "FunctionSpace": ("Grid", "HatFunctions"),
+    "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),
     "ParameterUnits": ("World", "UnitArea", "UnitCube"),
     "Rescale": ("Automatic", "NoRescale", "ConstantArea", "ConstantVolume"),
     "Smoothness": ("Harmonic", "Biharmonic"),

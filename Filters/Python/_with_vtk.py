@@ -63,10 +63,11 @@ class _Collector:
 
 
 class _Results:
-    """Gives the arrays of an output by their names."""
+    """Gives the arrays of outputs by their names. The first output that has the name counts."""
 
-    def __init__(self, output):
-        self.output = output
+    def __init__(self, outputs):
+        self.output = outputs[0]
+        self.outputs = [output for output in outputs if output.IsA("vtkPolyData")]
 
     def __getitem__(self, name):
         if name == "Points":
@@ -74,8 +75,8 @@ class _Results:
         if name == "Modes":
             count = self.output.GetFieldData().GetArray("Eigenvalues").GetNumberOfTuples()
             return numpy.column_stack([self[f"Mode{mode:03}"] for mode in range(count)])
-        attributes = (self.output.GetPointData(), self.output.GetCellData(),
-                      self.output.GetFieldData())
+        attributes = (data for output in self.outputs for data in (
+            output.GetPointData(), output.GetCellData(), output.GetFieldData()))
         found = next(a for a in attributes if a.HasArray(name))
         return vtk_to_numpy(found.GetArray(name)).copy()
 
@@ -142,4 +143,5 @@ def solve(name, points, cells, arrays, properties, sources=()):
         warnings.warn(text, RuntimeWarning, stacklevel=3)
     if algorithm.GetOutput().GetNumberOfPoints() == 0:
         raise Error("there is no result: the input has no points, or the run was aborted")
-    return _Results(algorithm.GetOutput())
+    return _Results([algorithm.GetOutputDataObject(port)
+                     for port in range(algorithm.GetNumberOfOutputPorts())])

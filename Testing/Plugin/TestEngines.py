@@ -116,6 +116,13 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.farthest_points(p, c, 6, **o))
         self.compare(lambda g, p, c, **o: g.farthest_points(p, c, 3, FirstPointId=7, **o))
 
+    def test_path(self):
+        self.compare(lambda g, p, c, **o: g.path(p, c, [0, len(p) // 2, len(p) // 3]))
+        self.compare(lambda g, p, c, **o: g.path(p, c, [2, 9, len(p) // 2], closed=True))
+
+    def test_distance_matrix(self):
+        self.compare(lambda g, p, c, **o: g.distance_matrix(p, c, [9, 0, len(p) // 2, 9]))
+
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
         self.compare(lambda g, p, c, **o: g.signed_distance(
@@ -180,7 +187,7 @@ class Engines(unittest.TestCase):
 
     def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
         module = sys.modules["gridfem_core._without_vtk"]._core
-        for name in ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
+        for name in ("FarthestPoints", "GeodesicDistance", "GeodesicPath", "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
                      "SurfaceDetail", "SurfaceGradient"):
@@ -210,7 +217,7 @@ class Engines(unittest.TestCase):
     def test_choices_are_those_of_the_filters(self):
         owners = {"FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
-                  "FunctionSpace": "ScreenedPoisson", "ParameterUnits": "ScreenedPoisson"}
+                  "FunctionSpace": "ScreenedPoisson", "PathType": "GeodesicPath", "ParameterUnits": "ScreenedPoisson"}
         choices = sys.modules["gridfem_core._inputs"].CHOICES
         self.assertEqual(choices.keys(), owners.keys())
         for choice, names in choices.items():

@@ -61,6 +61,7 @@ STARTS = {
     "FarthestPoints": [{"NumberOfPoints": 4}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
                          {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
+    "GeodesicPath": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
     "HarmonicInterpolation": [{"ValueArray": [POINTS, "p_f"], "MaskArray": [POINTS, "p_mask"]}],
     "HeatDiffusion": [{"Array": [POINTS, "p_f"], "DiffusionTime": 0.01},
                       {"Array": [POINTS, "p_f"], "HeatSourceArray": [POINTS, "p_g"], "NumberOfSteps": 2,
@@ -84,7 +85,7 @@ STARTS = {
                         {"Array": [POINTS, "p_vector"], "HodgeDecomposition": 1}]}
 
 # Values that a rule below does not find.
-OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5], [1, 9]],
+OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5], [1, 9]], "TargetPointIds": [[7], [20, 30]],
                 "NumberOfModes": [6, 3], "Mode": [1, 2], "Accuracy": [0.01], "WantedError": [0.3],
                 "ResultPrefix": ["Mine "], "FirstMode": [2], "LastMode": [3],
                 "FirstPointId": [7], "InsideLabel": [0], "ReferenceLabel": [1, 0],

@@ -122,6 +122,35 @@ class Numpy(unittest.TestCase):
         numpy.testing.assert_array_equal(nearest[ids], ids)
         self.assertLess(abs(distances.max() - numpy.pi / 2), 0.06)
 
+    def test_the_path_to_the_other_pole_is_half_a_great_circle(self):
+        opposite = int(numpy.argmin(self.points @ self.points[0]))
+        places, corners, weights = gridfem.path(*self.mesh, [0, opposite])
+        length = numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()
+        self.assertLess(abs(length - numpy.pi), 0.01)
+        self.assertLess(length, numpy.pi)
+        numpy.testing.assert_array_equal(places[[0, -1]], self.points[[0, opposite]])
+        numpy.testing.assert_allclose(weights.sum(axis=1), 1.0, atol=1e-15)
+        numpy.testing.assert_allclose(
+            (weights * self.points[corners, 2]).sum(axis=1), places[:, 2], atol=1e-15)
+        there_and_back, _, _ = gridfem.path(*self.mesh, [0, opposite], closed=True)
+        self.assertAlmostEqual(
+            numpy.linalg.norm(numpy.diff(there_and_back, axis=0), axis=1).sum(), 2 * length, places=9)
+        with self.assertRaisesRegex(gridfem.Error, "two points"):
+            gridfem.path(*self.mesh, [0])
+
+    def test_the_matrix_of_distances(self):
+        ids = [700, 0, 350, 700, 1200]
+        matrix = gridfem.distance_matrix(*self.mesh, ids)
+        angles = numpy.arccos(numpy.clip(self.points[ids] @ self.points[ids].T, -1, 1))
+        numpy.testing.assert_allclose(matrix, angles, atol=0.01)
+        numpy.testing.assert_array_equal(matrix, matrix.T)
+        numpy.testing.assert_array_equal(matrix[[0, 3, 1], [3, 0, 1]], 0.0)
+        points = numpy.vstack([self.points, self.points + 5])
+        cells = numpy.vstack([self.mesh[1], self.mesh[1] + len(self.points)])
+        with self.assertWarns(RuntimeWarning):
+            apart = gridfem.distance_matrix(points, cells, [0, 9, len(points) - 1])
+        numpy.testing.assert_array_equal(numpy.isnan(apart), [[0, 0, 1], [0, 0, 1], [1, 1, 0]])
+
     def test_latitude_is_signed(self):
         labels = numpy.where(self.points[:, 2] > -1e-9, 4, 2)  # half a ring below the equator
         latitude = numpy.arcsin(numpy.clip(self.points[:, 2], -1, 1)) + numpy.pi / 60

@@ -8,6 +8,7 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkFarthestPoints.h"
 #include "vtkGeodesicDistance.h"
+#include "vtkGeodesicPath.h"
 #include "vtkHarmonicInterpolation.h"
 #include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
@@ -98,6 +99,7 @@ inline auto AllFilters()
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
     FilterCase{ "FarthestPoints", &Make<vtkFarthestPoints> },
     FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
+    FilterCase{ "GeodesicPath", &Make<vtkGeodesicPath> },
     FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
     FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },

@@ -35,8 +35,8 @@ vtkSmartPointer<vtkPolyData> WithArrays(const TriangleMesh& mesh)
   return surface;
 }
 
-/// Returns the point arrays that a filter has added, and the number of points. NaN is the largest
-/// number here, so that equal arrays compare equal.
+/// Returns the point arrays that a filter has added, the number of points, and the lengths of
+/// paths. NaN is the largest number here, so that equal arrays compare equal.
 std::map<std::string, std::vector<double>> Results(vtkPolyData* input, vtkAlgorithm* filter)
 {
   auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
@@ -54,6 +54,11 @@ std::map<std::string, std::vector<double>> Results(vtkPolyData* input, vtkAlgori
         std::numeric_limits<double>::max());
       results[name] = std::move(values);
     }
+  }
+  if (vtkGeodesicPath::SafeDownCast(filter))
+  {
+    auto* lines = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
+    results["lengths"] = Values(lines->GetCellData()->GetArray("Length"));
   }
   return results;
 }
@@ -94,6 +99,10 @@ protected:
     if (auto* distance = vtkGeodesicDistance::SafeDownCast(filter))
     {
       distance->AddSourcePointId(top);
+    }
+    if (auto* path = vtkGeodesicPath::SafeDownCast(filter))
+    {
+      path->AddSourcePointId(top);
     }
     if (within)
     {

@@ -12,7 +12,7 @@ namespace
 {
 
 /// Pivots of a patch's scaled block below this value are left out.
-double SmallestPivot(bool isSingle)
+double SmallestPivotOf(bool isSingle)
 {
   return isSingle ? PrecisionTraits<float>::SmallestPatchPivot
                   : PrecisionTraits<double>::SmallestPatchPivot;
@@ -58,7 +58,7 @@ Id PatchInverses::FillGroups(
       Id unresolved = 0;
       for (Id p = begin; p < end; ++p)
       {
-        groups_[p] = FactorGroup(source, patches[p], SmallestPivot(isSingle));
+        groups_[p] = FactorGroup(source, patches[p], SmallestPivotOf(isSingle));
         if (isSingle && groups_[p].hasLargeScales)
         {
           groups_[p].V.resize(0, 0);
@@ -85,7 +85,7 @@ Id PatchInverses::FillPatches(const SparseMatrix& A, const UnknownGroups& patche
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      ForEachFactor(source, patches, begin, end, SmallestPivot(isPacked),
+      ForEachFactor(source, patches, begin, end, SmallestPivotOf(isPacked),
         [&](Id p, const PatchFactor& factor)
         { unresolved += this->Set(p, factor, precision) ? 0 : 1; });
       return unresolved;

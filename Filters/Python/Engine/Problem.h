@@ -61,6 +61,7 @@ std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
+std::unique_ptr<Problem> MakePath(Properties& properties);
 std::unique_ptr<Problem> MakePoisson(Properties& properties);
 std::unique_ptr<Problem> MakeSignatures(Properties& properties);
 std::unique_ptr<Problem> MakeSpectrum(Properties& properties);

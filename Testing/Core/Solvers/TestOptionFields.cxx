@@ -8,6 +8,7 @@
 #include "Solvers/FlowSolver.h"
 #include "Solvers/GradientSolver.h"
 #include "Solvers/InterpolationSolver.h"
+#include "Solvers/PathSolver.h"
 #include "Solvers/PoissonSolver.h"
 #include "Solvers/SignatureSolver.h"
 #include "Solvers/SpectrumSolver.h"
@@ -42,7 +43,7 @@ class OptionFields : public ::testing::Test
 
 using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
   DiffusionSolver::Options, DistanceSolver::Options, FarthestPointsSolver::Options,
-  FlowSolver::Options, GradientSolver::Options, InterpolationSolver::Options,
+  FlowSolver::Options, GradientSolver::Options, InterpolationSolver::Options, PathSolver::Options,
   PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 

@@ -22,30 +22,11 @@ namespace gridfem
 namespace
 {
 
-void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind)
-{
-  if (array->GetNumberOfTuples() != expected)
-  {
-    const char* name = array->GetName();
-    throw InvalidInput("Array '" + std::string(name ? name : "(no name)") + "' has " +
-                       std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
-                       std::to_string(expected) + " " + kind + ".");
-  }
-}
-
 void CopyNames(vtkAbstractArray* from, vtkAbstractArray* to)
 {
   to->SetName(from->GetName());
   to->SetNumberOfComponents(from->GetNumberOfComponents());
   to->CopyComponentNames(from);
-}
-
-/// Whether an array holds colors: bytes with three or four components. Colors may be mixed, labels
-/// may not.
-bool IsColor(vtkAbstractArray* array)
-{
-  const int components = array->GetNumberOfComponents();
-  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
 }
 
 vtkSmartPointer<vtkDataArray> Interpolate(
@@ -130,6 +111,23 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
 }
 
 } // namespace
+
+void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind)
+{
+  if (array->GetNumberOfTuples() != expected)
+  {
+    const char* name = array->GetName();
+    throw InvalidInput("Array '" + std::string(name ? name : "(no name)") + "' has " +
+                       std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
+                       std::to_string(expected) + " " + kind + ".");
+  }
+}
+
+bool IsColor(vtkAbstractArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
+}
 
 bool IsReal(vtkAbstractArray* array)
 {

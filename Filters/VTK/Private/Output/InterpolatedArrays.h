@@ -4,6 +4,8 @@
 
 #include "Grid/Clip.h"
 
+#include <string>
+
 class vtkAbstractArray;
 class vtkCellData;
 class vtkDataArray;
@@ -15,6 +17,14 @@ namespace gridfem
 
 /// Whether the values of an array are of a type of real numbers.
 bool IsReal(vtkAbstractArray* array);
+
+/// Whether an array holds colors: bytes with three or four components. Colors may be mixed, labels
+/// may not.
+bool IsColor(vtkAbstractArray* array);
+
+/// Throws InvalidInput, naming the array, unless it has this number of tuples.
+/// @param kind  the tuples belong to: "points" or "cells"
+void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind);
 
 /// Adds point arrays at the clipped points. Without cut points they are shared unchanged. Real
 /// numbers are linear along source triangles, as double. Colors (bytes with 3 or 4 components) are

@@ -1,0 +1,142 @@
+#include "vtkGeodesicPath.h"
+
+#include "Input/SelectedPoints.h"
+#include "Output/PathOutput.h"
+#include "Output/SolverOutput.h"
+#include "Pipeline/FilterState.h"
+
+#include "Solvers/PathSolver.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkSelection.h"
+
+vtkStandardNewMacro(vtkGeodesicPath);
+
+struct vtkGeodesicPath::Internals
+{
+  std::vector<gridfem::Id> SourceIds;
+  std::vector<gridfem::Id> TargetIds;
+  gridfem::PathSolver Solver;
+};
+
+vtkGeodesicPath::vtkGeodesicPath()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkGeodesicPath::~vtkGeodesicPath() = default;
+
+int vtkGeodesicPath::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  }
+  return 1;
+}
+
+void vtkGeodesicPath::AddSourcePointId(vtkIdType id)
+{
+  this->Data->SourceIds.push_back(id);
+  this->Modified();
+}
+
+void vtkGeodesicPath::ClearSourcePointIds()
+{
+  if (!this->Data->SourceIds.empty())
+  {
+    this->Data->SourceIds.clear();
+    this->Modified();
+  }
+}
+
+vtkIdType vtkGeodesicPath::GetNumberOfSourcePointIds()
+{
+  return static_cast<vtkIdType>(this->Data->SourceIds.size());
+}
+
+vtkIdType vtkGeodesicPath::GetSourcePointId(vtkIdType index)
+{
+  return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
+                                                                 : -1;
+}
+
+void vtkGeodesicPath::AddTargetPointId(vtkIdType id)
+{
+  this->Data->TargetIds.push_back(id);
+  this->Modified();
+}
+
+void vtkGeodesicPath::ClearTargetPointIds()
+{
+  if (!this->Data->TargetIds.empty())
+  {
+    this->Data->TargetIds.clear();
+    this->Modified();
+  }
+}
+
+vtkIdType vtkGeodesicPath::GetNumberOfTargetPointIds()
+{
+  return static_cast<vtkIdType>(this->Data->TargetIds.size());
+}
+
+vtkIdType vtkGeodesicPath::GetTargetPointId(vtkIdType index)
+{
+  return index >= 0 && index < this->GetNumberOfTargetPointIds() ? this->Data->TargetIds[index]
+                                                                 : -1;
+}
+
+void vtkGeodesicPath::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  gridfem::FilterState& state = *this->State;
+  gridfem::InputSurface& surface = state.Read(input, nullptr);
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[1]), this->JoinedInput());
+  gridfem::PathSolver::Input given;
+  given.sources.ids = this->Data->SourceIds;
+  given.sources.mask = surface.Given(surface.Find(0, "Source Array"));
+  given.targets.ids = this->Data->TargetIds;
+  given.targets.mask = surface.Given(surface.Find(1, "Target Array"));
+  if (this->Selection->IsGiven())
+  {
+    given.targets.points.push_back({ "the Selection", "The Selection takes no point of a polygon",
+      [&] { return this->Selection->Ids(surface.Mesh()); } });
+  }
+  gridfem::PathSolver::Options options;
+  options.pathType = this->PathType;
+  const gridfem::PathSolver::Result& result =
+    this->Data->Solver.Update(surface, given, options, { 0, state.GetProgress() });
+
+  vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
+  mesh->ShallowCopy(input);
+  mesh->GetCellData()->AddArray(gridfem::MakeIdArray("PathId",
+    gridfem::FirstPathThroughCells(result.paths, surface.Triangles(), input->GetNumberOfCells())));
+  mesh->GetFieldData()->AddArray(gridfem::MakeIdArray("UnreachedTargets", result.unreached));
+  gridfem::WritePaths(result.paths, surface.Triangles(), input, vtkPolyData::GetData(outputs, 1));
+  this->Warn(result.warnings);
+}
+
+void vtkGeodesicPath::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Selection->Free();
+  this->Data->Solver = {};
+}
+
+void vtkGeodesicPath::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
+  os << indent << "TargetPointIds: " << this->GetNumberOfTargetPointIds() << "\n";
+  os << indent << "PathType: " << this->PathType << "\n";
+}
