@@ -39,7 +39,7 @@ def main():
         FarthestPoints(Input=surface, NumberOfPoints=POINTS, Depth=int(sys.argv[2])))
     array = required(found).GetFieldData().GetArray("FarthestPoints")
     ids = [int(array.GetValue(k)) for k in range(array.GetNumberOfTuples())]
-    path = GeodesicPath(Input=surface, TargetPointIds=ids)
+    path = GeodesicPaths(Input=surface, TargetPointIds=ids)
     tiles = []
     for kind, label in (("To Nearest Source", "from one point to the others"),
                         ("Closed", "through all points and back")):

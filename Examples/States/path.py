@@ -33,7 +33,7 @@ layout.SplitHorizontal(0, 0.5)
 views = [simple.CreateRenderView(), simple.CreateRenderView()]
 for cell, view, kind, name in zip((1, 2), views, ("To Nearest Source", "Closed"), ("Paths", "Loop")):
     layout.AssignView(cell, view)
-    paths = GeodesicPath(Input=mesh, TargetPointIds=ids, PathType=kind)
+    paths = GeodesicPaths(Input=mesh, TargetPointIds=ids, PathType=kind)
     simple.RenameSource(name, paths)
     simple.ColorBy(simple.Show(paths, view), None)
     lines = simple.Tube(Input=simple.OutputPort(paths, 1), Radius=0.004 * size)

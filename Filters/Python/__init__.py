@@ -132,7 +132,7 @@ def distance_matrix(points, cells, ids, **properties):
     found, number = numpy.unique(ids, return_inverse=True)
     matrix = numpy.full((found.size, found.size), numpy.nan)
     numpy.fill_diagonal(matrix, 0.0)
-    results = _solve("GeodesicPath", points, cells, {}, {"PathType": "AllPairs", **properties}, found)
+    results = _solve("GeodesicPaths", points, cells, {}, {"PathType": "AllPairs", **properties}, found)
     if found.size > 1:  # the path of a single point leads to the farthest
         ends = (numpy.searchsorted(found, results[name].astype(numpy.int64))
                 for name in ("SourceId", "TargetId"))
@@ -153,7 +153,7 @@ def path(points, cells, ids, closed=False, **properties):
     ids = _inputs.ids("ids", ids)
     if ids.size < 2:
         raise Error("a path leads through two points or more")
-    results = _solve("GeodesicPath", points, cells, {},
+    results = _solve("GeodesicPaths", points, cells, {},
                      {"PathType": "Closed" if closed else "InOrder", **properties}, ids)
     if results["UnreachedTargets"].size:
         raise Error(f"no path leads to the point {int(results['UnreachedTargets'][0])}, which is on "

@@ -187,7 +187,7 @@ class Engines(unittest.TestCase):
 
     def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
         module = sys.modules["gridfem_core._without_vtk"]._core
-        for name in ("FarthestPoints", "GeodesicDistance", "GeodesicPath", "HarmonicInterpolation", "HeatDiffusion",
+        for name in ("FarthestPoints", "GeodesicDistance", "GeodesicPaths", "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
                      "SurfaceDetail", "SurfaceGradient"):
@@ -217,7 +217,7 @@ class Engines(unittest.TestCase):
     def test_choices_are_those_of_the_filters(self):
         owners = {"FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
-                  "FunctionSpace": "ScreenedPoisson", "PathType": "GeodesicPath", "ParameterUnits": "ScreenedPoisson"}
+                  "FunctionSpace": "ScreenedPoisson", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
         choices = sys.modules["gridfem_core._inputs"].CHOICES
         self.assertEqual(choices.keys(), owners.keys())
         for choice, names in choices.items():

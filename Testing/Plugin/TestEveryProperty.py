@@ -61,7 +61,7 @@ STARTS = {
     "FarthestPoints": [{"NumberOfPoints": 4}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
                          {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
-    "GeodesicPath": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
+    "GeodesicPaths": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
     "HarmonicInterpolation": [{"ValueArray": [POINTS, "p_f"], "MaskArray": [POINTS, "p_mask"]}],
     "HeatDiffusion": [{"Array": [POINTS, "p_f"], "DiffusionTime": 0.01},
                       {"Array": [POINTS, "p_f"], "HeatSourceArray": [POINTS, "p_g"], "NumberOfSteps": 2,

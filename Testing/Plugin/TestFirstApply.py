@@ -15,7 +15,7 @@ COLORED_BY = {
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
     "FarthestPoints": ("POINTS", "Distance"),
     "GeodesicDistance": ("POINTS", "Distance"),
-    "GeodesicPath": (None, ""),  # the lines have the colors
+    "GeodesicPaths": (None, ""),  # the lines have the colors
     "HarmonicInterpolation": ("POINTS", "Interpolated"),
     "HeatDiffusion": ("POINTS", "NormalDisplacement"),
     "LaplaceSpectrum": ("POINTS", "Mode"),
@@ -33,7 +33,7 @@ SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIn
                                   "MaximumCurvature"),
           "SurfaceGradient": ("Laplacian",)}
 
-SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPath": {0, 1}, "LaplaceSpectrum": {0, 1},
+SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1},
                "MeanCurvatureFlow": {0, 1}}
 
 

@@ -8,7 +8,7 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkFarthestPoints.h"
 #include "vtkGeodesicDistance.h"
-#include "vtkGeodesicPath.h"
+#include "vtkGeodesicPaths.h"
 #include "vtkHarmonicInterpolation.h"
 #include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
@@ -99,7 +99,7 @@ inline auto AllFilters()
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
     FilterCase{ "FarthestPoints", &Make<vtkFarthestPoints> },
     FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
-    FilterCase{ "GeodesicPath", &Make<vtkGeodesicPath> },
+    FilterCase{ "GeodesicPaths", &Make<vtkGeodesicPaths> },
     FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
     FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },

@@ -55,7 +55,7 @@ std::map<std::string, std::vector<double>> Results(vtkPolyData* input, vtkAlgori
       results[name] = std::move(values);
     }
   }
-  if (vtkGeodesicPath::SafeDownCast(filter))
+  if (vtkGeodesicPaths::SafeDownCast(filter))
   {
     auto* lines = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
     results["lengths"] = Values(lines->GetCellData()->GetArray("Length"));
@@ -100,7 +100,7 @@ protected:
     {
       distance->AddSourcePointId(top);
     }
-    if (auto* path = vtkGeodesicPath::SafeDownCast(filter))
+    if (auto* path = vtkGeodesicPaths::SafeDownCast(filter))
     {
       path->AddSourcePointId(top);
     }

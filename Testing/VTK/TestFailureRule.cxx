@@ -74,7 +74,7 @@ std::string ResultOf(vtkAlgorithm* filter)
 /// The stage that reads the mesh.
 const char* FirstStageOf(vtkAlgorithm* filter)
 {
-  return filter->IsA("vtkGeodesicPath") ? "Mesh" : "Space"; // it needs no functions
+  return filter->IsA("vtkGeodesicPaths") ? "Mesh" : "Space"; // it needs no functions
 }
 
 /// Expects numbers at the points that a polygon uses. The other points have none, or that of a
@@ -382,7 +382,7 @@ TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
 {
   filter->SetDepth(14); // about 1.6e9 cells: more than a terabyte
   const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
-  const bool needsNoGrid = filter->IsA("vtkGeodesicPath");
+  const bool needsNoGrid = filter->IsA("vtkGeodesicPaths");
   if (needsNoGrid || (isOnHats && !filter->IsA("vtkGeodesicDistance"))) // whose heat flows on it
   {
     this->ExpectComputed(Surface(GeodesicSphere(8))); // hats are over a grid that is as coarse
@@ -395,7 +395,7 @@ TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
 TEST_P(FailureRule, AnUnknownQuadratureDegreeIsRefused)
 {
   filter->SetQuadratureDegree(3);
-  if (filter->IsA("vtkConnectivityAwareBasis") || filter->IsA("vtkGeodesicPath"))
+  if (filter->IsA("vtkConnectivityAwareBasis") || filter->IsA("vtkGeodesicPaths"))
   {
     this->ExpectComputed(Surface(GeodesicSphere(4))); // they integrate nothing
     return;

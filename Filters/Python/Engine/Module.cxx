@@ -30,7 +30,7 @@ using Numbers = std::map<std::string, double>;
 const std::map<std::string, MakeProblem> Problems = {
   { "FarthestPoints", &MakeFarthestPoints },
   { "GeodesicDistance", &MakeDistance },
-  { "GeodesicPath", &MakePath },
+  { "GeodesicPaths", &MakePath },
   { "HarmonicInterpolation", &MakeInterpolation },
   { "HeatDiffusion", &MakeDiffusion },
   { "LaplaceSpectrum", &MakeSpectrum },

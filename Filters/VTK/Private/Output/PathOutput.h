@@ -10,7 +10,7 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Writes a polyline for each path, with the arrays that vtkGeodesicPath describes, and the point
+/// Writes a polyline for each path, with the arrays that vtkGeodesicPaths describes, and the point
 /// arrays of the input along the paths. Real numbers and colors are linear in every triangle. Other
 /// values are those of the nearest corner. Throws InvalidInput naming an array of wrong length.
 void WritePaths(const std::vector<PathSolver::Path>& paths, const InputMesh& mesh,

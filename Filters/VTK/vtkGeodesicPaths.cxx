@@ -1,4 +1,4 @@
-#include "vtkGeodesicPath.h"
+#include "vtkGeodesicPaths.h"
 
 #include "Input/SelectedPoints.h"
 #include "Output/PathOutput.h"
@@ -16,25 +16,25 @@
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 
-vtkStandardNewMacro(vtkGeodesicPath);
+vtkStandardNewMacro(vtkGeodesicPaths);
 
-struct vtkGeodesicPath::Internals
+struct vtkGeodesicPaths::Internals
 {
   std::vector<gridfem::Id> SourceIds;
   std::vector<gridfem::Id> TargetIds;
   gridfem::PathSolver Solver;
 };
 
-vtkGeodesicPath::vtkGeodesicPath()
+vtkGeodesicPaths::vtkGeodesicPaths()
   : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
 }
 
-vtkGeodesicPath::~vtkGeodesicPath() = default;
+vtkGeodesicPaths::~vtkGeodesicPaths() = default;
 
-int vtkGeodesicPath::FillInputPortInformation(int port, vtkInformation* info)
+int vtkGeodesicPaths::FillInputPortInformation(int port, vtkInformation* info)
 {
   this->Superclass::FillInputPortInformation(port, info);
   if (port == 1)
@@ -44,13 +44,13 @@ int vtkGeodesicPath::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-void vtkGeodesicPath::AddSourcePointId(vtkIdType id)
+void vtkGeodesicPaths::AddSourcePointId(vtkIdType id)
 {
   this->Data->SourceIds.push_back(id);
   this->Modified();
 }
 
-void vtkGeodesicPath::ClearSourcePointIds()
+void vtkGeodesicPaths::ClearSourcePointIds()
 {
   if (!this->Data->SourceIds.empty())
   {
@@ -59,24 +59,24 @@ void vtkGeodesicPath::ClearSourcePointIds()
   }
 }
 
-vtkIdType vtkGeodesicPath::GetNumberOfSourcePointIds()
+vtkIdType vtkGeodesicPaths::GetNumberOfSourcePointIds()
 {
   return static_cast<vtkIdType>(this->Data->SourceIds.size());
 }
 
-vtkIdType vtkGeodesicPath::GetSourcePointId(vtkIdType index)
+vtkIdType vtkGeodesicPaths::GetSourcePointId(vtkIdType index)
 {
   return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
                                                                  : -1;
 }
 
-void vtkGeodesicPath::AddTargetPointId(vtkIdType id)
+void vtkGeodesicPaths::AddTargetPointId(vtkIdType id)
 {
   this->Data->TargetIds.push_back(id);
   this->Modified();
 }
 
-void vtkGeodesicPath::ClearTargetPointIds()
+void vtkGeodesicPaths::ClearTargetPointIds()
 {
   if (!this->Data->TargetIds.empty())
   {
@@ -85,18 +85,18 @@ void vtkGeodesicPath::ClearTargetPointIds()
   }
 }
 
-vtkIdType vtkGeodesicPath::GetNumberOfTargetPointIds()
+vtkIdType vtkGeodesicPaths::GetNumberOfTargetPointIds()
 {
   return static_cast<vtkIdType>(this->Data->TargetIds.size());
 }
 
-vtkIdType vtkGeodesicPath::GetTargetPointId(vtkIdType index)
+vtkIdType vtkGeodesicPaths::GetTargetPointId(vtkIdType index)
 {
   return index >= 0 && index < this->GetNumberOfTargetPointIds() ? this->Data->TargetIds[index]
                                                                  : -1;
 }
 
-void vtkGeodesicPath::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkGeodesicPaths::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::FilterState& state = *this->State;
@@ -126,14 +126,14 @@ void vtkGeodesicPath::Compute(vtkInformationVector** inputs, vtkInformationVecto
   this->Warn(result.warnings);
 }
 
-void vtkGeodesicPath::FreeStages()
+void vtkGeodesicPaths::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
   this->Data->Solver = {};
 }
 
-void vtkGeodesicPath::PrintSelf(ostream& os, vtkIndent indent)
+void vtkGeodesicPaths::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";

@@ -1,7 +1,7 @@
-// Geodesic Path as a user of VTK sees it.
+// Geodesic Paths as a user of VTK sees it.
 #include "FilterSupport.h"
 
-#include "vtkGeodesicPath.h"
+#include "vtkGeodesicPaths.h"
 
 #include "vtkCell.h"
 #include "vtkIdTypeArray.h"
@@ -20,7 +20,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-vtkPolyData* PathsOf(vtkGeodesicPath* filter)
+vtkPolyData* PathsOf(vtkGeodesicPaths* filter)
 {
   filter->Update();
   return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
@@ -31,9 +31,9 @@ std::vector<double> CellValues(vtkPolyData* data, const char* name)
   return Values(data->GetCellData()->GetArray(name));
 }
 
-vtkSmartPointer<vtkGeodesicPath> PathOn(vtkPolyData* surface)
+vtkSmartPointer<vtkGeodesicPaths> PathOn(vtkPolyData* surface)
 {
-  auto filter = vtkSmartPointer<vtkGeodesicPath>::New();
+  auto filter = vtkSmartPointer<vtkGeodesicPaths>::New();
   filter->SetInputData(surface);
   return filter;
 }
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkGeodesicPath> PathOn(vtkPolyData* surface)
 
 /// Points lie where their corners and weights say, and arrays of the input are linear along the
 /// path. Numbers at other corners, even NaN, do not count.
-TEST(GeodesicPath, DescribesItsPoints)
+TEST(GeodesicPaths, DescribesItsPoints)
 {
   const TriangleMesh mesh = Torus(24, 12, 2.0, 0.7);
   const auto surface = ToPolyData(mesh);
@@ -89,11 +89,11 @@ TEST(GeodesicPath, DescribesItsPoints)
 }
 
 /// The last arc length is the length, and the cells of the path are marked.
-TEST(GeodesicPath, MeasuresAndMarks)
+TEST(GeodesicPaths, MeasuresAndMarks)
 {
   const auto surface = ToPolyData(Box(5));
   const auto filter = PathOn(surface);
-  filter->SetPathType(vtkGeodesicPath::Closed);
+  filter->SetPathType(vtkGeodesicPaths::Closed);
   for (const vtkIdType point : { 2, 40, 100 })
   {
     filter->AddTargetPointId(point);
@@ -122,7 +122,7 @@ TEST(GeodesicPath, MeasuresAndMarks)
 }
 
 /// Two selected points have the path between them, without another choice.
-TEST(GeodesicPath, JoinsTwoSelectedPoints)
+TEST(GeodesicPaths, JoinsTwoSelectedPoints)
 {
   const auto surface = ToPolyData(GeodesicSphere(6));
   vtkNew<vtkIdTypeArray> ids;
@@ -141,7 +141,7 @@ TEST(GeodesicPath, JoinsTwoSelectedPoints)
   EXPECT_EQ(CellValues(paths, "TargetId"), (std::vector<double>{ 90 }));
 }
 
-TEST(GeodesicPath, ArraysNameSourcesAndTargets)
+TEST(GeodesicPaths, ArraysNameSourcesAndTargets)
 {
   const auto surface = ToPolyData(Box(3));
   AddPointArray(surface, "from", 1, [](const Vec3& p, int) { return p.norm() == 0.0 ? 1.0 : 0.0; });
@@ -154,7 +154,7 @@ TEST(GeodesicPath, ArraysNameSourcesAndTargets)
   EXPECT_NEAR(lengths.front(), std::sqrt(5.0), 1e-6); // points of vtkPolyData may be float
 }
 
-TEST(GeodesicPath, TellsWhereNoPathLeads)
+TEST(GeodesicPaths, TellsWhereNoPathLeads)
 {
   const auto surface = ToPolyData(CubeArray(2, 1, 0.5));
   const auto last = static_cast<double>(surface->GetNumberOfPoints() - 1);

@@ -1,5 +1,5 @@
 /**
- * @class   vtkGeodesicPath
+ * @class   vtkGeodesicPaths
  * @brief   shortest paths along a surface between some of its points
  *
  * Connects points by the shortest lines on the surface, exactly on its triangles. A search through
@@ -47,8 +47,8 @@
  * and the DomainArray of the shared properties. On several MPI ranks the surface is gathered, and
  * port 1 is on rank 0.
  */
-#ifndef vtkGeodesicPath_h
-#define vtkGeodesicPath_h
+#ifndef vtkGeodesicPaths_h
+#define vtkGeodesicPaths_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -57,11 +57,11 @@ namespace gridfem
 class SelectedPoints;
 } // namespace gridfem
 
-class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicPath : public vtkSurfaceFEMAlgorithm
+class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicPaths : public vtkSurfaceFEMAlgorithm
 {
 public:
-  static vtkGeodesicPath* New();
-  vtkTypeMacro(vtkGeodesicPath, vtkSurfaceFEMAlgorithm);
+  static vtkGeodesicPaths* New();
+  vtkTypeMacro(vtkGeodesicPaths, vtkSurfaceFEMAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -107,8 +107,8 @@ public:
   void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
 protected:
-  vtkGeodesicPath();
-  ~vtkGeodesicPath() override;
+  vtkGeodesicPaths();
+  ~vtkGeodesicPaths() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -117,8 +117,8 @@ protected:
   int PathType = ToNearestSource;
 
 private:
-  vtkGeodesicPath(const vtkGeodesicPath&) = delete;
-  void operator=(const vtkGeodesicPath&) = delete;
+  vtkGeodesicPaths(const vtkGeodesicPaths&) = delete;
+  void operator=(const vtkGeodesicPaths&) = delete;
 
   struct Internals;
   std::unique_ptr<Internals> Data;
