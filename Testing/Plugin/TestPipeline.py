@@ -299,8 +299,10 @@ class TestPipeline(unittest.TestCase):
                     "XYChartView" if name in opened else "None")
                 chart = simple.Show(simple.OutputPort(proxy, 1), simple.CreateView("XYChartView"))
                 self.assertEqual(list(chart.SeriesVisibility), series)
-                # Row = iteration or mode; the flow has a column Time.
+                # Row = iteration or mode; the flow has the steps, which are the times of the animation.
                 self.assertEqual(chart.UseIndexForXAxis, int(name != "MeanCurvatureFlow"))
+                if name == "MeanCurvatureFlow":
+                    self.assertEqual(chart.XArrayName, "Step")
 
     def test_charts_of_blocks_draw_the_same_columns(self):
         errors = []
