@@ -15,11 +15,6 @@ plugin.load()
 script = Script(sys.argv[1])
 
 
-def edit(name, what):
-    script.edit(what)
-    script.save(f"{name}.{what}")
-
-
 def edit_filter(name):
     proxy = getattr(simple, name)(Input=surface).SMProxy
     script.make(name)
@@ -35,8 +30,13 @@ def edit_filter(name):
     key, value = plugin.change_of(name)
     script.enter(proxy.GetProperty(key), value)
     script.apply()
-    edit(name, "Undo")
-    edit(name, "Redo")
+    script.edit("Undo")
+    script.save(f"{name}.Undo")
+    script.enter(proxy.GetProperty(key), value)
+    script.apply()
+    script.edit("Undo")
+    script.edit("Redo")  # from ParaView 5.13 on there is none after a state was saved
+    script.save(f"{name}.Redo")
     script.delete()
 
 
