@@ -163,14 +163,23 @@ def path(points, cells, ids, closed=False, **properties):
     return places, corners, weights
 
 
-def diffuse(points, cells, values, time, held=None, source=None, **properties):
-    """Computes values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps.
+def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None, sigma=None,
+            **properties):
+    """Computes values after heat has spread, in 8 steps: smooths them by a Gaussian along the surface.
 
+    Give one of three amounts. time: a squared length in ParameterUnits. fwhm: the full width of the
+    Gaussian at half of its maximum. sigma: its standard deviation. The widths are in the unit of the
+    points. The columns of values, such as the frames of a series, are smoothed each alone.
     held: where it is true at the points, the values stay. With BoundaryValues they also stay along the
     boundary. source: added per unit of time.
     """
+    amounts = {"DiffusionTime": time, "FWHM": fwhm, "Sigma": sigma}
+    given = [number for number, amount in enumerate(amounts.values()) if amount is not None]
+    if len(given) != 1:
+        raise Error("give one of time, fwhm and sigma")
+    amount = {"Amount": given[0], **{key: value for key, value in amounts.items() if value is not None}}
     return _solve("HeatDiffusion", points, cells, {"values": values, "held": held, "source": source},
-                  {"DiffusionTime": time, "NumberOfSteps": 8, **properties})["Diffused"]
+                  {**amount, "NumberOfSteps": 8, **properties})["Diffused"]
 
 
 def interpolate(points, cells, ids, values, **properties):

@@ -86,7 +86,10 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 
   gridfem::DiffusionSolver::Options options;
   options.equation = state.options;
+  options.amount = static_cast<gridfem::DiffusionAmount>(this->Amount);
   options.diffusionTime = this->DiffusionTime;
+  options.fullWidth = this->FWHM;
+  options.sigma = this->Sigma;
   options.numberOfSteps = this->NumberOfSteps;
   options.boundaryValues = this->BoundaryValues;
   const gridfem::Progress progress = state.GetProgress();
@@ -153,7 +156,10 @@ void vtkHeatDiffusion::FreeStages()
 void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Amount: " << this->Amount << "\n";
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
+  os << indent << "FWHM: " << this->FWHM << "\n";
+  os << indent << "Sigma: " << this->Sigma << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "TimeFrom: " << this->TimeFrom << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";

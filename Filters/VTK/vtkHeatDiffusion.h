@@ -3,11 +3,12 @@
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
  * Solves ∂u/∂t = Δu + s on the surface, from the array u at time 0 to the DiffusionTime, with the
- * source s. The time is divided into NumberOfSteps equal steps, and each is a time step of the
- * output. Steps are of second order in their length and stable for any length. The first step takes
- * three solves and damps details of any size; each later one takes two. One step leaves at most
- * 0.006 of a detail with the wrong sign, and the heat of a point stays positive. Only jumps within
- * a cell make the functions go below and above the given values.
+ * source s. Instead of the time you can give the width of the Gaussian that smooths: FWHM or Sigma.
+ * The time is divided into NumberOfSteps equal steps, and each is a time step of the output. Steps
+ * are of second order in their length and stable for any length. The first step takes three solves
+ * and damps details of any size; each later one takes two. One step leaves at most 0.006 of a
+ * detail with the wrong sign, and the heat of a point stays positive. Only jumps within a cell make
+ * the functions go below and above the given values.
  *
  * No heat flows over boundaries. The integral over every connected component changes only by the
  * source. Held values, however, let heat enter and leave.
@@ -44,8 +45,8 @@
  * Accuracy ends the solves of a single step. The errors of several steps add up. Several steps, and
  * steps with held values, are therefore solved to a Tolerance, which is 1e-6 if the property is 0,
  * and have no estimated errors. NormalStabilization is 1e-2 by default. The filter uses all shared
- * properties. DiffusionTime is in the squared unit of length of ParameterUnits, and the source is
- * per squared world length.
+ * properties. DiffusionTime is in the squared unit of length of ParameterUnits. FWHM and Sigma are
+ * in the unit of the points, and the source is per squared world length.
  *
  * All MPI ranks compute together if an array spreads. Rank 0 computes alone if the coordinates
  * spread.
@@ -67,6 +68,21 @@ public:
   vtkTypeMacro(vtkHeatDiffusion, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  enum AmountType
+  {
+    Time = 0,
+    FullWidth = 1,
+    StandardDeviation = 2
+  };
+  ///@{
+  /**
+   * The property that states how far heat spreads. Time (default): DiffusionTime. FullWidth: FWHM.
+   * StandardDeviation: Sigma.
+   */
+  vtkSetClampMacro(Amount, int, Time, StandardDeviation);
+  vtkGetMacro(Amount, int);
+  ///@}
+
   ///@{
   /**
    * How long heat spreads, in the squared unit of length of ParameterUnits. Waves of length l fade
@@ -75,6 +91,24 @@ public:
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * The full width at half maximum of the Gaussian that smooths, in the unit of the points. The
+   * diffusion time is FWHM^2 / (16 ln 2). Above 0, default 6.
+   */
+  vtkSetMacro(FWHM, double);
+  vtkGetMacro(FWHM, double);
+  ///@}
+
+  ///@{
+  /**
+   * The standard deviation of the Gaussian that smooths, in the unit of the points. The diffusion
+   * time is Sigma^2 / 2. Above 0, default 2.5.
+   */
+  vtkSetMacro(Sigma, double);
+  vtkGetMacro(Sigma, double);
   ///@}
 
   ///@{
@@ -129,7 +163,10 @@ protected:
   bool NeedsWholeSurface() override;
   void FreeStages() override;
 
+  int Amount = Time;
   double DiffusionTime = 0.001;
+  double FWHM = 6.0;
+  double Sigma = 2.5;
   int NumberOfSteps = 1;
   int TimeFrom = Steps;
   bool BoundaryValues = false;

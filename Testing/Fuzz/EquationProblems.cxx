@@ -237,7 +237,8 @@ void Diffuse(Choice& choice, RandomSurface& surface, Outcome& outcome)
     choice.OneIn(2)
       ? MultiVector()
       : space.LoadOfValues(OrdinaryField(choice, *surface.mesh, 2, FieldAssociation::Triangles));
-  HeatDiffusion diffusion(surface.space, start, sources, options);
+  HeatDiffusion diffusion(
+    std::make_shared<const HeatEquation>(surface.space, options), start, sources);
   for (Id step = choice.Integer(1, 3); step > 0; --step)
   {
     outcome.Add(diffusion.Advance());

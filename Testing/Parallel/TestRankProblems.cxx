@@ -129,7 +129,7 @@ TEST(RankProblems, HeatSpreadsAsOnOneRank)
     {
       const Field f{ FieldAssociation::Points, VectorsAt(mesh.points) };
       const MultiVector start = space->LoadOfValues(f);
-      HeatDiffusion heat(space, start, 0.5 * start, options);
+      HeatDiffusion heat(std::make_shared<const HeatEquation>(space, options), start, 0.5 * start);
       EXPECT_TRUE(heat.Advance().converged);
       EXPECT_TRUE(heat.Advance().converged);
       return space->ValuesAtPoints(heat.Coefficients());

@@ -130,6 +130,9 @@ class Engines(unittest.TestCase):
 
     def test_diffuse(self):
         self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], 0.01, **o))
+        self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], fwhm=0.3, **o))
+        frames = numpy.sin(numpy.arange(20.0))
+        self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2:] * frames, sigma=0.2, **o))
 
     def test_interpolate(self):
         for smoothness in (0, 1):

@@ -163,6 +163,16 @@ class Numpy(unittest.TestCase):
         numpy.testing.assert_allclose(
             diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
 
+    def test_smoothing_by_a_width(self):
+        time = 0.05
+        expected = gridfem.diffuse(*self.mesh, self.points, time, ParameterUnits=0, **OPTIONS)
+        for amount in ({"fwhm": numpy.sqrt(16 * numpy.log(2) * time)}, {"sigma": numpy.sqrt(2 * time)}):
+            numpy.testing.assert_allclose(
+                gridfem.diffuse(*self.mesh, self.points, **amount, **OPTIONS), expected, atol=1e-9)
+        for amounts in ({}, {"fwhm": 1.0, "sigma": 1.0}, {"time": 1.0, "fwhm": 1.0}):
+            with self.assertRaisesRegex(gridfem.Error, "give one of time, fwhm and sigma"):
+                gridfem.diffuse(*self.mesh, self.points, **amounts, **OPTIONS)
+
     def test_heat_of_a_point_is_positive(self):
         put = numpy.zeros(len(self.points))
         put[200] = 1.0

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace gridfem;
@@ -44,6 +45,16 @@ std::vector<double> DiffusedAt(vtkHeatDiffusion* filter, double step)
 {
   EXPECT_EQ(filter->UpdateTimeStep(step), 1);
   return PointValues(filter->GetOutputDataObject(0), "Diffused");
+}
+
+void ExpectNear(
+  const std::vector<double>& found, const std::vector<double>& expected, double tolerance)
+{
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_NEAR(found[i], expected[i], tolerance);
+  }
 }
 
 double HeightAtPole(const std::vector<double>& values)
@@ -87,6 +98,67 @@ TEST(HeatDiffusionFilter, TheHeatOfAPointIsPositiveAndLargeWhereItWasPut)
         EXPECT_GT(*std::min_element(heat.begin(), heat.end()), -1e-3 * most) << time;
         EXPECT_GT(heat[100], (step == 1 ? 0.87 : 0.97) * most) << time << " " << step;
       }
+    }
+  }
+}
+
+/// Widths are in the unit of the points, whatever the unit of the time.
+TEST(HeatDiffusionFilter, TakesWidthsInTheUnitOfThePoints)
+{
+  const double time = 0.3;
+  const std::vector<double> expected = DiffusedAt(MakeFilter(time, 1), 1);
+  for (const int units : { vtkSurfaceFEMAlgorithm::World, vtkSurfaceFEMAlgorithm::UnitArea })
+  {
+    auto filter = MakeFilter(7.0, 1);
+    filter->SetParameterUnits(units);
+    filter->SetAmount(vtkHeatDiffusion::FullWidth);
+    filter->SetFWHM(std::sqrt(16.0 * std::log(2.0) * time));
+    ExpectNear(DiffusedAt(filter, 1), expected, 1e-6);
+    EXPECT_NEAR(FieldValue(filter->GetOutputDataObject(0), "DiffusionTime"), time, 1e-12);
+    filter->SetAmount(vtkHeatDiffusion::StandardDeviation);
+    filter->SetSigma(std::sqrt(2.0 * time));
+    ExpectNear(DiffusedAt(filter, 1), expected, 1e-6);
+  }
+}
+
+/// A reader gives a new mesh and new arrays at every time. A mesh that stays keeps its functions
+/// and its hierarchy, also within a mask.
+TEST(HeatDiffusionFilter, FramesOnAMeshThatStaysRepeatOnlyTheSolve)
+{
+  const TriangleMesh mesh = GeodesicSphere(12, Radius);
+  auto filter = MakeFilter(0.1, 1);
+  filter->SetInputArrayToProcess(9, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "mask");
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    const auto input = [&](const TriangleMesh& of)
+    {
+      auto data = ToPolyData(of);
+      AddPointArray(data, "z", 1, [=](const Vec3& p, int) { return std::sin(p[2] + frame); });
+      AddPointArray(data, "mask", 1, [](const Vec3& p, int) { return p[0] > -0.5 ? 1.0 : 0.0; });
+      return data;
+    };
+    filter->SetInputDataObject(input(mesh));
+    const std::vector<double> values = DiffusedAt(filter, 1);
+    EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
+    EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+    EXPECT_EQ(filter->GetNumberOfRuns("Solve"), frame + 1);
+    TriangleMesh part = mesh;
+    part.triangles.clear();
+    for (const auto& triangle : mesh.triangles)
+    {
+      if (std::all_of(triangle.begin(), triangle.end(),
+            [&](Id point) { return mesh.points[point][0] > -0.5; }))
+      {
+        part.triangles.push_back(triangle);
+      }
+    }
+    auto cut = MakeFilter(0.1, 1);
+    cut->SetInputDataObject(input(part));
+    const std::vector<double> expected = DiffusedAt(cut, 1);
+    ASSERT_EQ(values.size(), expected.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      EXPECT_TRUE(values[i] == expected[i] || (std::isnan(values[i]) && std::isnan(expected[i])));
     }
   }
 }

@@ -64,6 +64,26 @@ const HostileCase Cases[] = {
     { return With<vtkGeodesicDistance>([=](auto* filter) { filter->SetTolerance(value); }); } },
   { "DiffusionTime", [](double value)
     { return With<vtkHeatDiffusion>([=](auto* filter) { filter->SetDiffusionTime(value); }); } },
+  { "FWHM",
+    [](double value)
+    {
+      return With<vtkHeatDiffusion>(
+        [=](auto* filter)
+        {
+          filter->SetAmount(vtkHeatDiffusion::FullWidth);
+          filter->SetFWHM(value);
+        });
+    } },
+  { "Sigma",
+    [](double value)
+    {
+      return With<vtkHeatDiffusion>(
+        [=](auto* filter)
+        {
+          filter->SetAmount(vtkHeatDiffusion::StandardDeviation);
+          filter->SetSigma(value);
+        });
+    } },
   { "DiffusionTime",
     [](double value)
     {

@@ -13,58 +13,57 @@ const double Gamma = 1.0 - std::sqrt(0.5);
 
 } // namespace
 
-HeatDiffusion::HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVector start,
-  MultiVector sources, DiffusionOptions options, const Job& job)
-  : space_(std::move(space)), options_(std::move(options)), load_(std::move(start)),
-    sources_(std::move(sources))
+HeatEquation::HeatEquation(std::shared_ptr<const SpaceLevels> space,
+  const DiffusionOptions& options, HeldRows held, const Job& job)
+  : space_(std::move(space)), options_(options), heldRows_(held.rows)
 {
-  if (!(options_.timeStep > 0.0) || std::isinf(options_.timeStep))
+  if (!(options.timeStep > 0.0) || std::isinf(options.timeStep))
   {
     throw InvalidInput(
-      "The time step is " + std::to_string(options_.timeStep) + "; it must be a number above 0.");
+      "The time step is " + std::to_string(options.timeStep) + "; it must be a number above 0.");
   }
-  if (sources_.rows() == 0)
-  {
-    sources_ = MultiVector::Zero(load_.rows(), load_.cols());
-  }
-  if (load_.rows() != static_cast<Id>(space_->Integrals().size()) ||
-      sources_.rows() != load_.rows() || sources_.cols() != load_.cols())
-  {
-    throw InvalidInput("The integrals of the start or of the sources do not fit the functions.");
-  }
-  const MultiVector& held = options_.held.values;
-  if (held.rows() > 0 && (held.rows() != options_.held.rows.rows || held.cols() != load_.cols()))
-  {
-    throw InvalidInput("The values that are held do not fit the points or the start.");
-  }
-  const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
-  stageStep_ = (isFirstOrder ? 1.0 : Gamma) * options_.timeStep;
+  const bool isFirstOrder = options.scheme == TimeScheme::BackwardEuler;
+  stageStep_ = (isFirstOrder ? 1.0 : Gamma) * options.timeStep;
   mass_ = space_->Matrix(0, 1.0, 0.0, job.threads);
-  std::array<double, 1> numberOfHeld = { static_cast<double>(held.rows()) };
+  std::array<double, 1> numberOfHeld = { static_cast<double>(heldRows_) };
   SumOverProcesses(space_->Distributed(0), numberOfHeld);
   if (numberOfHeld[0] > 0.0)
   {
     constrained_ = std::make_unique<ConstrainedHierarchy>(*space_, 1.0 / stageStep_, 1.0,
-      std::move(options_.held.rows), ConstraintOptions().penalty, options_.multigrid, job.progress);
+      std::move(held), ConstraintOptions().penalty, options.multigrid, job.progress);
     return;
   }
   multigrid_ = std::make_unique<Multigrid>(
-    BuildMultigrid(*space_, 1.0 / stageStep_, 1.0, options_.multigrid, job.progress));
+    BuildMultigrid(*space_, 1.0 / stageStep_, 1.0, options.multigrid, job.progress));
 }
 
-/// Solves (M + γδ L) U = load, with the held values if there are any.
-PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
+void HeatEquation::Require(
+  const MultiVector& start, const MultiVector& sources, const MultiVector& heldValues) const
+{
+  if (start.rows() != static_cast<Id>(space_->Integrals().size()) ||
+      (sources.rows() > 0 && (sources.rows() != start.rows() || sources.cols() != start.cols())))
+  {
+    throw InvalidInput("The integrals of the start or of the sources do not fit the functions.");
+  }
+  if (heldValues.rows() != heldRows_ || (heldRows_ > 0 && heldValues.cols() != start.cols()))
+  {
+    throw InvalidInput("The values that are held do not fit the points or the start.");
+  }
+}
+
+PoissonSolution HeatEquation::Solve(const MultiVector& load, const MultiVector& heldValues,
+  ConstrainedSolution& met, const Job& job) const
 {
   if (constrained_)
   {
     PoissonSolution solution;
     ConstraintOptions constraints;
     constraints.estimateOn = space_.get();
-    met_ = SolveConstrained(*space_, 1.0 / stageStep_, *constrained_, load / stageStep_,
-      options_.held.values, constraints, options_.solve, job.progress);
-    solution.coefficients = std::move(met_.coefficients);
-    solution.accuracy = met_.accuracy;
-    solution.report = std::move(met_.report);
+    met = SolveConstrained(*space_, 1.0 / stageStep_, *constrained_, load / stageStep_, heldValues,
+      constraints, options_.solve, job.progress);
+    solution.coefficients = std::move(met.coefficients);
+    solution.accuracy = met.accuracy;
+    solution.report = std::move(met.report);
     return solution;
   }
   PoissonOptions options{ options_, 1.0 / stageStep_ };
@@ -72,8 +71,7 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }
 
-/// ∫ u b_i for the function u with these coefficients.
-MultiVector HeatDiffusion::IntegralsOf(const MultiVector& coefficients, const Job& job) const
+MultiVector HeatEquation::IntegralsOf(const MultiVector& coefficients, const Job& job) const
 {
   MultiVector integrals;
   Multiply(mass_, coefficients, integrals, job.threads);
@@ -84,16 +82,25 @@ MultiVector HeatDiffusion::IntegralsOf(const MultiVector& coefficients, const Jo
   return integrals;
 }
 
+HeatDiffusion::HeatDiffusion(std::shared_ptr<const HeatEquation> equation, MultiVector start,
+  MultiVector sources, MultiVector heldValues)
+  : equation_(std::move(equation)), load_(std::move(start)), sources_(std::move(sources)),
+    heldValues_(std::move(heldValues))
+{
+  equation_->Require(load_, sources_, heldValues_);
+}
+
 SolveReport HeatDiffusion::Advance(const Job& job)
 {
-  const MultiVector added = stageStep_ * sources_;
-  const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
+  const MultiVector added = equation_->StageStep() * sources_;
+  const bool isFirstOrder = equation_->Scheme() == TimeScheme::BackwardEuler;
   const bool isStart = !isFirstOrder && !hasStarted_;
   const int solves = isFirstOrder ? 1 : isStart ? 3 : 2;
   PoissonSolution solution;
   MultiVector before; // coefficients of the solve before the last
   MultiVector now = load_;
   auto accuracy = SolutionAccuracy::Exact();
+  ConstrainedSolution met;
   bool converged = true;
   for (int k = 0; k < solves; ++k)
   {
@@ -103,20 +110,26 @@ SolveReport HeatDiffusion::Advance(const Job& job)
       now = load_ + (1.0 - Gamma) / Gamma * (now - load_);
     }
     before = std::move(solution.coefficients);
-    solution = this->Solve(now + added, job.Part(double(k) / solves, double(k + 1) / solves));
+    if (added.rows() > 0)
+    {
+      now += added;
+    }
+    solution =
+      equation_->Solve(now, heldValues_, met, job.Part(double(k) / solves, double(k + 1) / solves));
     converged = converged && solution.report.converged;
     KeepWorse(solution.accuracy, accuracy);
-    now = this->IntegralsOf(solution.coefficients, job);
+    now = equation_->IntegralsOf(solution.coefficients, job);
   }
   if (isStart)
   {
     // The last two solves are at 2γδ and 3γδ. The line through them is followed to δ.
     solution.coefficients += (1.0 / Gamma - 3.0) * (solution.coefficients - before);
-    now = this->IntegralsOf(solution.coefficients, job);
+    now = equation_->IntegralsOf(solution.coefficients, job);
   }
   load_ = std::move(now);
   coefficients_ = std::move(solution.coefficients);
   accuracy_ = accuracy;
+  met_ = std::move(met);
   hasStarted_ = true;
   solution.report.converged = converged;
   return std::move(solution.report);

@@ -27,7 +27,46 @@ struct DiffusionOptions : EquationOptions
 {
   double timeStep = 1.0; // δ > 0, squared units of length of the space
   TimeScheme scheme = TimeScheme::SecondOrder;
-  HeldValues held; // values that are kept constant, columns as the start's; no rows: none
+};
+
+/// The equation (M + γδ L) U = load of steps of one length, with its hierarchy. It serves any
+/// number of fields, one after the other.
+class HeatEquation
+{
+public:
+  /// @param held  where values are kept constant; no rows: nowhere
+  /// Throws InvalidInput when the time step is not a positive number, and Aborted. Collective.
+  HeatEquation(std::shared_ptr<const SpaceLevels> space, const DiffusionOptions& options,
+    HeldRows held = {}, const Job& job = {});
+
+  const SpaceLevels& Space() const { return *space_; }
+  TimeScheme Scheme() const { return options_.scheme; }
+
+  /// γδ
+  double StageStep() const { return stageStep_; }
+
+  /// @param heldValues  a row for each held row, columns as the load's
+  /// @param met         how the held values are met, without coefficients and report
+  PoissonSolution Solve(const MultiVector& load, const MultiVector& heldValues,
+    ConstrainedSolution& met, const Job& job) const;
+
+  /// Returns ∫ u b_i for the function u with these coefficients.
+  MultiVector IntegralsOf(const MultiVector& coefficients, const Job& job) const;
+
+  /// Throws InvalidInput when rows or columns do not fit.
+  void Require(
+    const MultiVector& start, const MultiVector& sources, const MultiVector& heldValues) const;
+
+private:
+  std::shared_ptr<const SpaceLevels> space_;
+  DiffusionOptions options_;
+  double stageStep_ = 0.0;
+  Index heldRows_ = 0; // in this process
+  SparseMatrix mass_;
+  // One of the two exists: the hierarchy of M / (γδ) + L, or that with the penalties of held
+  // values.
+  std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<ConstrainedHierarchy> constrained_;
 };
 
 /// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so only the
@@ -46,12 +85,12 @@ struct DiffusionOptions : EquationOptions
 class HeatDiffusion
 {
 public:
-  /// @param start    ∫ f b_i of the field at time 0 (LoadOfValues)
-  /// @param sources  ∫ s b_i of the heat added per unit of time, as many columns; no rows: none
-  /// Throws InvalidInput when the time step is not a positive number or shapes do not fit, and
-  /// Aborted.
-  HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVector start, MultiVector sources,
-    DiffusionOptions options, const Job& job = {});
+  /// @param start       ∫ f b_i of the field at time 0 (LoadOfValues)
+  /// @param sources     ∫ s b_i of the heat added per unit of time, as many columns; no rows: none
+  /// @param heldValues  a row for each held row of the equation, as many columns
+  /// Throws InvalidInput when shapes do not fit.
+  HeatDiffusion(std::shared_ptr<const HeatEquation> equation, MultiVector start,
+    MultiVector sources = {}, MultiVector heldValues = {});
 
   /// Makes the next step and reports how its solves went. Throws Aborted and then leaves the state
   /// as it was.
@@ -68,21 +107,12 @@ public:
   const MultiVector& Coefficients() const { return coefficients_; }
 
 private:
-  PoissonSolution Solve(const MultiVector& load, const Job& job);
-  MultiVector IntegralsOf(const MultiVector& coefficients, const Job& job) const;
-
-  std::shared_ptr<const SpaceLevels> space_;
-  DiffusionOptions options_;
-  double stageStep_ = 0.0; // γδ
+  std::shared_ptr<const HeatEquation> equation_;
   bool hasStarted_ = false;
-  SparseMatrix mass_;
-  // One of the two exists: the hierarchy of M / (γδ) + L, or that with the penalties of held
-  // values.
-  std::unique_ptr<Multigrid> multigrid_;
-  std::unique_ptr<ConstrainedHierarchy> constrained_;
   ConstrainedSolution met_;
   MultiVector load_; // ∫ u b_i at the current time
   MultiVector sources_;
+  MultiVector heldValues_;
   MultiVector coefficients_;
   SolutionAccuracy accuracy_;
 };

@@ -13,15 +13,34 @@
 namespace gridfem
 {
 
+/// What states how far heat spreads.
+enum class DiffusionAmount
+{
+  Time = 0,
+  FullWidth = 1, // of the kernel at half of its maximum
+  Sigma = 2      // standard deviation of the kernel along each direction
+};
+
+///@{ The diffusion time after which the heat of a point is a Gaussian of this width on a plane, in
+/// squared units of the width. Without boundaries, smoothing by two widths is smoothing by the root
+/// of the sum of their squares.
+double TimeOfFullWidth(double fullWidth); // t = FWHM² / (16 ln 2)
+double TimeOfSigma(double sigma);         // t = sigma² / 2
+///@}
+
 /// Solves the heat equation du/dt = Δu + s. It keeps the steps: more steps of the same length
-/// continue from the last one.
+/// continue from the last one. Values that change on the same surface, as from frame to frame of a
+/// series, repeat neither functions nor hierarchy. Many components are solved a few at a time.
 class DiffusionSolver
 {
 public:
   struct Options
   {
     EquationOptions equation = EndedByAccuracy();
-    double diffusionTime = 0.001; // squared parameter units, above 0
+    DiffusionAmount amount = DiffusionAmount::Time; // which of the next three counts
+    double diffusionTime = 0.001;                   // squared parameter units, above 0
+    double fullWidth = 6.0;                         // world units, above 0
+    double sigma = 2.5;                             // world units, above 0
     int numberOfSteps = 1;
     bool boundaryValues = false; // values on the boundary stay
 
@@ -29,7 +48,10 @@ public:
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
+      visit("Amount", self.amount, Clamped(0, 2));
       visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
+      visit("FWHM", self.fullWidth, AtLeast(0.0));
+      visit("Sigma", self.sigma, AtLeast(0.0));
       visit("NumberOfSteps", self.numberOfSteps, Clamped(1, 10000));
       visit("BoundaryValues", self.boundaryValues, AnyValue());
     }
@@ -79,12 +101,16 @@ private:
     const Surface& surface, const Input& input, const Options& options, const Job& job);
   void UpdateHierarchy(const Surface& surface, const Options& options, const Job& job);
   void MakeSteps(const Surface& surface, const Options& options, const Job& job);
+  Step MakeStep(const Surface& surface, bool goesOn, const Job& job);
 
   Eigen::RowVectorXd constants_; // that the start, held values and solutions lack
   MultiVector start_;
   MultiVector sources_;
   HeldValues held_;
-  std::unique_ptr<HeatDiffusion> diffusion_;
+  std::int64_t heldPlaces_ = 0; // changes with the places of held values
+  std::shared_ptr<const HeatEquation> equation_;
+  std::vector<HeatDiffusion> panels_; // after the last step; none if it cannot be continued
+  StageKey ofSteps_;
   Result result_;
 };
 

@@ -54,21 +54,22 @@ Eigen::RowVectorXd LargeConstants(
 {
   constexpr double SmallVariation = 1e-5;
   constexpr double None = -std::numeric_limits<double>::infinity();
+  const auto larger = [](double a, double b) { return std::fmax(a, b); };
+  Eigen::RowVectorXd greatest = Eigen::RowVectorXd::Constant(values.cols(), None);
+  Eigen::RowVectorXd smallest = greatest; // its negative
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    if (isUsed.empty() || isUsed[row])
+    {
+      greatest = greatest.binaryExpr(values.row(row), larger);
+      smallest = smallest.binaryExpr(-values.row(row), larger);
+    }
+  }
   Eigen::RowVectorXd constants = Eigen::RowVectorXd::Zero(values.cols());
   for (Id c = 0; c < values.cols(); ++c)
   {
-    double most = None;
-    double least = None; // its negative
-    for (Id row = 0; row < values.rows(); ++row)
-    {
-      if (isUsed.empty() || isUsed[row])
-      {
-        most = std::fmax(most, values(row, c));
-        least = std::fmax(least, -values(row, c));
-      }
-    }
-    most = surface.Largest(most);
-    least = -surface.Largest(least);
+    const double most = surface.Largest(greatest[c]);
+    const double least = -surface.Largest(smallest[c]);
     const double size = std::min(std::abs(most), std::abs(least));
     if (most - least < SmallVariation * size)
     {

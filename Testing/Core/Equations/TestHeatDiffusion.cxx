@@ -32,6 +32,13 @@ DiffusionOptions Options(double timeStep, TimeScheme scheme, int threads = 0)
   return options;
 }
 
+std::shared_ptr<const HeatEquation> EquationOf(std::shared_ptr<const FiniteElementSpace> space,
+  const DiffusionOptions& options, HeldRows held = {})
+{
+  return std::make_shared<const HeatEquation>(
+    std::move(space), options, std::move(held), options.multigrid.threads);
+}
+
 Field OnPoints(MultiVector values)
 {
   return { FieldAssociation::Points, std::move(values) };
@@ -46,7 +53,8 @@ double LeftOnSphere(bool isOnHats, TimeScheme scheme, double time, int steps)
   const MultiVector points = PointCoordinates(mesh);
   const MultiVector f = points.col(0).cwiseProduct(points.col(1));
   const double step = time / steps / std::pow(space->UnitLength(), 2);
-  HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f)), {}, Options(step, scheme));
+  HeatDiffusion diffusion(
+    EquationOf(space, Options(step, scheme)), space->LoadOfValues(OnPoints(f)));
   for (int k = 0; k < steps; ++k)
   {
     EXPECT_TRUE(diffusion.Advance().converged);
@@ -141,8 +149,9 @@ TEST(HeatDiffusion, OfAPointIsNeverNegativeBeyondTheErrorOfTheSpace)
       const MultiVector load = space->LoadOfValues(OnPoints(f));
       for (const double step : { 1e-3, 0.1, 1.0, 5.0, 30.0, 1e4 })
       {
-        HeatDiffusion heat(space, load, {}, Options(step, TimeScheme::SecondOrder));
-        HeatDiffusion euler(space, load, {}, Options(step / Short, TimeScheme::BackwardEuler));
+        HeatDiffusion heat(EquationOf(space, Options(step, TimeScheme::SecondOrder)), load);
+        HeatDiffusion euler(
+          EquationOf(space, Options(step / Short, TimeScheme::BackwardEuler)), load);
         for (int k = 0; k < 3; ++k)
         {
           heat.Advance();
@@ -179,7 +188,7 @@ TEST(HeatDiffusion, HasTheHeatOfTheKernelAtItsSource)
   const double total = load.sum() * std::pow(space->UnitLength(), 2);
   const double time = 0.04; // the root is eight edges long; the sphere is flat enough
   const double step = time / std::pow(space->UnitLength(), 2);
-  HeatDiffusion heat(space, load, {}, Options(step, TimeScheme::SecondOrder));
+  HeatDiffusion heat(EquationOf(space, Options(step, TimeScheme::SecondOrder)), load);
   heat.Advance();
   const double found = space->ValuesAtPoints(heat.Coefficients())(source, 0);
   // The kernel of the unit sphere is larger by 1 + t / 3 there.
@@ -199,8 +208,8 @@ TEST(HeatDiffusion, KeepsTheIntegralOnEveryComponentAndAddsThatOfSources)
     {
       const auto space = Build(mesh, isOnHats, 4);
       const MultiVector load = space->LoadOfValues(OnPoints(f));
-      HeatDiffusion diffusion(space, load, {}, Options(7.0, scheme));
-      HeatDiffusion heated(space, load, load, Options(7.0, scheme));
+      HeatDiffusion diffusion(EquationOf(space, Options(7.0, scheme)), load);
+      HeatDiffusion heated(EquationOf(space, Options(7.0, scheme)), load, load);
       for (int k = 0; k < 3; ++k)
       {
         diffusion.Advance();
@@ -238,9 +247,11 @@ TEST(HeatDiffusion, LetsHeatGoWhereValuesAreHeld)
       const auto space = Build(mesh, isOnHats, 5);
       const double time = 0.05;
       const int steps = 8;
-      DiffusionOptions options = Options(time / steps / std::pow(space->UnitLength(), 2), scheme);
-      options.held = HoldEdges(*space, mesh, rim, MultiVector::Zero(f.rows(), 1));
-      HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f)), {}, options);
+      const DiffusionOptions options =
+        Options(time / steps / std::pow(space->UnitLength(), 2), scheme);
+      const HeldValues held = HoldEdges(*space, mesh, rim, MultiVector::Zero(f.rows(), 1));
+      HeatDiffusion diffusion(
+        EquationOf(space, options, held.rows), space->LoadOfValues(OnPoints(f)), {}, held.values);
       for (int k = 0; k < steps; ++k)
       {
         EXPECT_TRUE(diffusion.Advance().converged);
@@ -277,9 +288,9 @@ TEST(HeatDiffusion, ComesToRestOnTheHarmonicFunctionOfWhatIsHeld)
   for (const bool isOnHats : { false, true })
   {
     const auto space = Build(mesh, isOnHats, 5);
-    DiffusionOptions options = Options(1e4, TimeScheme::SecondOrder);
-    options.held = HoldPoints(*space, ends, wanted);
-    HeatDiffusion diffusion(space, MultiVector::Zero(space->NumberOfFunctions(0), 1), {}, options);
+    const HeldValues held = HoldPoints(*space, ends, wanted);
+    HeatDiffusion diffusion(EquationOf(space, Options(1e4, TimeScheme::SecondOrder), held.rows),
+      MultiVector::Zero(space->NumberOfFunctions(0), 1), {}, held.values);
     for (int k = 0; k < 6; ++k)
     {
       diffusion.Advance();
@@ -296,7 +307,7 @@ TEST(HeatDiffusion, DampsRoughDataAtOnceHoweverLongTheStep)
   const MultiVector f = RandomValues(static_cast<Id>(mesh.points.size()), 1);
   const MultiVector load = space->LoadOfValues(OnPoints(f));
   const double mean = load.sum() / Total(*space, MultiVector::Ones(load.rows(), 1));
-  HeatDiffusion diffusion(space, load, {}, Options(1e8, TimeScheme::SecondOrder));
+  HeatDiffusion diffusion(EquationOf(space, Options(1e8, TimeScheme::SecondOrder)), load);
   diffusion.Advance();
   EXPECT_LT((diffusion.Coefficients().array() - mean).abs().maxCoeff<Eigen::PropagateNaN>(), 1e-5);
 }
@@ -310,8 +321,8 @@ TEST(HeatDiffusion, DoesNotDependOnThreadsAndStopsWhenAsked)
   {
     const int threads = 1 + 2 * k;
     const auto space = Build(mesh, false, 5, threads);
-    HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f), threads), {},
-      Options(2.0, TimeScheme::SecondOrder, threads), threads);
+    HeatDiffusion diffusion(EquationOf(space, Options(2.0, TimeScheme::SecondOrder, threads)),
+      space->LoadOfValues(OnPoints(f), threads));
     diffusion.Advance(threads);
     results[k] = diffusion.Coefficients();
     const Job stop(threads, Progress([](double done) { return done < 0.5; }));
@@ -327,13 +338,15 @@ TEST(HeatDiffusion, RefusesWhatDoesNotFit)
   const MultiVector load = MultiVector::Ones(space->NumberOfFunctions(0), 2);
   for (const double step : { 0.0, -1.0, std::nan(""), double(INFINITY) })
   {
-    EXPECT_THROW(
-      HeatDiffusion(space, load, {}, Options(step, TimeScheme::SecondOrder)), InvalidInput);
+    EXPECT_THROW(EquationOf(space, Options(step, TimeScheme::SecondOrder)), InvalidInput);
   }
   const DiffusionOptions options = Options(1.0, TimeScheme::SecondOrder);
-  EXPECT_THROW(HeatDiffusion(space, MultiVector::Ones(3, 1), {}, options), InvalidInput);
-  EXPECT_THROW(HeatDiffusion(space, load, load.leftCols(1), options), InvalidInput);
-  DiffusionOptions held = options;
-  held.held = HoldPoints(*space, { 0, 1 }, MultiVector::Ones(2, 1));
-  EXPECT_THROW(HeatDiffusion(space, load, {}, held), InvalidInput); // two columns for one
+  const auto equation = EquationOf(space, options);
+  EXPECT_THROW(HeatDiffusion(equation, MultiVector::Ones(3, 1)), InvalidInput);
+  EXPECT_THROW(HeatDiffusion(equation, load, load.leftCols(1)), InvalidInput);
+  const HeldValues held = HoldPoints(*space, { 0, 1 }, MultiVector::Ones(2, 1));
+  EXPECT_THROW(HeatDiffusion(equation, load, {}, held.values), InvalidInput); // nothing is held
+  const auto holding = EquationOf(space, options, held.rows);
+  EXPECT_THROW(HeatDiffusion(holding, load, {}, held.values), InvalidInput); // one column for two
+  EXPECT_THROW(HeatDiffusion(holding, load), InvalidInput);
 }

@@ -111,18 +111,17 @@ void RequireFound(
 /// Copies a tuple into a row. Throws if a value is not finite.
 void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector& values, Id row)
 {
-  for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
+  double* const to = values.data() + row * values.cols();
+  input.array->GetTuple(tuple, to);
+  for (const double* value = to; value != to + values.cols(); ++value)
   {
-    const double value = input.array->GetComponent(tuple, c);
-    const bool isKept = nans == NaNs::Kept && std::isnan(value);
-    if (!std::isfinite(value) && !isKept)
+    if (!std::isfinite(*value) && !(nans == NaNs::Kept && std::isnan(*value)))
     {
       const bool onPoints = input.association == FieldAssociation::Points;
       throw InvalidInput("Array '" + input.name + "' has a NaN or infinite value at " +
                          (onPoints ? "point " : "cell ") + std::to_string(tuple) +
                          ". Replace such values first, for example with the Calculator.");
     }
-    values(row, c) = value;
   }
 }
 
