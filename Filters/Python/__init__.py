@@ -31,7 +31,8 @@ except ImportError:
     from ._with_vtk import solve as _solve_numbered, surface, triangulate as _triangulate
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "distance_matrix", "divergence", "farthest_points", "flow", "gradient", "interpolate", "path", "poisson", "signatures",
+           "distance_matrix", "divergence", "farthest_points", "flow", "gaussian_field", "gradient",
+           "interpolate", "path", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -180,6 +181,17 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
     amount = {"Amount": given[0], **{key: value for key, value in amounts.items() if value is not None}}
     return _solve("HeatDiffusion", points, cells, {"values": values, "held": held, "source": source},
                   {**amount, "NumberOfSteps": 8, **properties})["Diffused"]
+
+
+def gaussian_field(points, cells, distance, number=1, **properties):
+    """Samples random fields whose values at near points are alike, with mean 0 (N, number).
+
+    distance: the Range in ParameterUnits; farther values hardly depend on each other. Smoothness chooses
+    between rough and smooth samples. Another Seed gives other samples. With Statistics the result has two
+    columns: mean and standard deviation of the samples.
+    """
+    return _solve("GaussianField", points, cells, {},
+                  {"Range": distance, "NumberOfSamples": number, **properties})["Samples"]
 
 
 def interpolate(points, cells, ids, values, **properties):

@@ -75,6 +75,10 @@ class _Results:
         if name == "Modes":
             count = self.output.GetFieldData().GetArray("Eigenvalues").GetNumberOfTuples()
             return numpy.column_stack([self[f"Mode{mode:03}"] for mode in range(count)])
+        if name == "Samples":
+            points = self.output.GetPointData()
+            names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
+            return numpy.column_stack([self[name] for name in names if name.startswith("Sample")])
         attributes = (data for output in self.outputs for data in (
             output.GetPointData(), output.GetCellData(), output.GetFieldData()))
         found = next(a for a in attributes if a.HasArray(name))

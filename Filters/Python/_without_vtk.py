@@ -75,7 +75,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
         raise Error(str(error)) from None
     for text in messages:
         warnings.warn(text, RuntimeWarning, stacklevel=3)
-    results = {array: values[:, 0] if values.shape[1] == 1 and array != "Modes" else values
+    results = {array: values[:, 0] if values.shape[1] == 1 and array not in ("Modes", "Samples") else values
                for array, values in results.items()}
     for array in {"Solution", "Diffused", "Interpolated", "Filtered"} & results.keys():
         if "values" in given:

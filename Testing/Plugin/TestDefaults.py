@@ -19,7 +19,8 @@ MOST_SHOWN = 5
 
 # The class does not clamp these properties. It refuses values below the range, with a message.
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
-                 "TransitionWidth": 0, "FWHM": 0, "Sigma": 0}
+                 "TransitionWidth": 0, "FWHM": 0, "Sigma": 0, "Range": 0,
+                 "StandardDeviation": 0}
 
 
 def is_shown(proxy, decorator):

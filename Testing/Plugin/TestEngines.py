@@ -123,6 +123,11 @@ class Engines(unittest.TestCase):
     def test_distance_matrix(self):
         self.compare(lambda g, p, c, **o: g.distance_matrix(p, c, [9, 0, len(p) // 2, 9]))
 
+    def test_gaussian_field(self):
+        for smoothness in (1, 2, 3):
+            self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 3, Smoothness=smoothness, **o))
+        self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 9, Statistics=True, Seed=5, **o))
+
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
         self.compare(lambda g, p, c, **o: g.signed_distance(
@@ -190,7 +195,8 @@ class Engines(unittest.TestCase):
 
     def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
         module = sys.modules["gridfem_core._without_vtk"]._core
-        for name in ("FarthestPoints", "GeodesicDistance", "GeodesicPaths", "HarmonicInterpolation", "HeatDiffusion",
+        for name in ("FarthestPoints", "GaussianField", "GeodesicDistance", "GeodesicPaths",
+                     "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
                      "SurfaceDetail", "SurfaceGradient"):

@@ -59,6 +59,8 @@ STARTS = {
     "ConnectivityAwareBasis": [{}],
     "ClipToOctree": [{}],
     "FarthestPoints": [{"NumberOfPoints": 4}],
+    "GaussianField": [{"Range": 0.5, "NumberOfSamples": 3},
+                      {"Range": 0.5, "NumberOfSamples": 3, "Statistics": 1}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
                          {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
     "GeodesicPaths": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],

@@ -14,6 +14,7 @@ COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
     "FarthestPoints": ("POINTS", "Distance"),
+    "GaussianField": ("POINTS", "Sample000"),
     "GeodesicDistance": ("POINTS", "Distance"),
     "GeodesicPaths": (None, ""),  # the lines have the colors
     "HarmonicInterpolation": ("POINTS", "Interpolated"),
@@ -26,7 +27,7 @@ COLORED_BY = {
     "StitchColors": ("POINTS", "StitchedColors"),
     "SurfaceDetail": ("POINTS", "NormalDisplacement"),
     "SurfaceGradient": ("POINTS", "Laplacian")}
-ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
+ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement", "Sample000")
 
 # Signed arrays that a filter has besides the one that colors it first.
 SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIndex", "MinimumCurvature",

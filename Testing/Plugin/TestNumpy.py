@@ -163,6 +163,18 @@ class Numpy(unittest.TestCase):
         numpy.testing.assert_allclose(
             diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
 
+    def test_random_fields_have_their_standard_deviation(self):
+        fields = gridfem.gaussian_field(
+            *self.mesh, 0.5, 30, ParameterUnits=0, StandardDeviation=3.0, **OPTIONS)
+        self.assertEqual(fields.shape, (len(self.points), 30))
+        self.assertAlmostEqual(fields.std(), 3.0, delta=0.3)
+        statistics = gridfem.gaussian_field(
+            *self.mesh, 0.5, 30, ParameterUnits=0, StandardDeviation=3.0, Statistics=True, **OPTIONS)
+        numpy.testing.assert_allclose(
+            statistics, numpy.stack([fields.mean(axis=1), fields.std(axis=1, ddof=1)], 1), atol=1e-9)
+        with self.assertRaisesRegex(gridfem.Error, "Range"):
+            gridfem.gaussian_field(*self.mesh, 0.0, **OPTIONS)
+
     def test_smoothing_by_a_width(self):
         time = 0.05
         expected = gridfem.diffuse(*self.mesh, self.points, time, ParameterUnits=0, **OPTIONS)

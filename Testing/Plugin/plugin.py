@@ -29,6 +29,7 @@ CHOICES = {
 CHANGES = {
     "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
     "FarthestPoints": ("NumberOfPoints", "4"),
+    "GaussianField": ("Seed", "7"),
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),

@@ -7,6 +7,7 @@
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkFarthestPoints.h"
+#include "vtkGaussianField.h"
 #include "vtkGeodesicDistance.h"
 #include "vtkGeodesicPaths.h"
 #include "vtkHarmonicInterpolation.h"
@@ -98,6 +99,7 @@ inline auto AllFilters()
   return ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
     FilterCase{ "FarthestPoints", &Make<vtkFarthestPoints> },
+    FilterCase{ "GaussianField", &Make<vtkGaussianField> },
     FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
     FilterCase{ "GeodesicPaths", &Make<vtkGeodesicPaths> },
     FilterCase{ "HarmonicInterpolation", &MakeInterpolation },

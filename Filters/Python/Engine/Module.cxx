@@ -29,6 +29,7 @@ using Numbers = std::map<std::string, double>;
 
 const std::map<std::string, MakeProblem> Problems = {
   { "FarthestPoints", &MakeFarthestPoints },
+  { "GaussianField", &MakeGaussianField },
   { "GeodesicDistance", &MakeDistance },
   { "GeodesicPaths", &MakePath },
   { "HarmonicInterpolation", &MakeInterpolation },

@@ -59,6 +59,7 @@ std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
 std::unique_ptr<Problem> MakeDistance(Properties& properties);
 std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
+std::unique_ptr<Problem> MakeGaussianField(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
 std::unique_ptr<Problem> MakePath(Properties& properties);

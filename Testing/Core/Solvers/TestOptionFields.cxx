@@ -6,6 +6,7 @@
 #include "Solvers/DistanceSolver.h"
 #include "Solvers/FarthestPointsSolver.h"
 #include "Solvers/FlowSolver.h"
+#include "Solvers/GaussianFieldSolver.h"
 #include "Solvers/GradientSolver.h"
 #include "Solvers/InterpolationSolver.h"
 #include "Solvers/PathSolver.h"
@@ -43,8 +44,9 @@ class OptionFields : public ::testing::Test
 
 using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
   DiffusionSolver::Options, DistanceSolver::Options, FarthestPointsSolver::Options,
-  FlowSolver::Options, GradientSolver::Options, InterpolationSolver::Options, PathSolver::Options,
-  PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
+  FlowSolver::Options, GaussianFieldSolver::Options, GradientSolver::Options,
+  InterpolationSolver::Options, PathSolver::Options, PoissonSolver::Options,
+  SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace

@@ -1,0 +1,197 @@
+// Samples against the exact covariance: its modes on a sphere, and Matérn's function on a plane.
+// Errors of estimates follow from the samples, so tolerances are multiples of standard errors.
+#include "Equations/MaternField.h"
+
+#include "Base/Errors.h"
+#include "EitherSpace.h"
+#include "Spaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+const double Pi = std::acos(-1.0);
+
+/// @param range  world units
+MaternField FieldOn(
+  const std::shared_ptr<const FiniteElementSpace>& space, double range, int smoothness)
+{
+  MaternOptions options;
+  options.solve.tolerance = 1e-6;
+  options.kappa = std::sqrt(8.0 * smoothness) / range * space->UnitLength();
+  options.smoothness = smoothness;
+  return MaternField(space, options);
+}
+
+/// Samples at the points, a column each.
+MultiVector SamplesOf(
+  const FiniteElementSpace& space, const MaternField& field, Id samples, std::uint64_t seed = 3)
+{
+  MultiVector all(space.PointsWithFunctions().size(), samples);
+  for (Id first = 0; first < samples; first += 8)
+  {
+    const FieldSamples some = field.Sample(seed, first, std::min<Id>(8, samples - first));
+    EXPECT_TRUE(some.report.converged);
+    all.middleCols(first, some.coefficients.cols()) = space.ValuesAtPoints(some.coefficients);
+  }
+  return all;
+}
+
+/// Correlation at the distance range * r.
+double Matern(double r, int smoothness)
+{
+  const double x = std::sqrt(8.0 * smoothness) * r;
+  return x == 0.0 ? 1.0
+                  : std::pow(x, smoothness) * std::cyl_bessel_k(double(smoothness), x) /
+                      (std::pow(2.0, smoothness - 1) * std::tgamma(smoothness));
+}
+
+/// The mean of independent numbers, and its standard error.
+struct Estimate
+{
+  explicit Estimate(const Eigen::VectorXd& numbers)
+    : mean(numbers.mean()),
+      error(std::sqrt((numbers.array() - mean).square().sum()) / double(numbers.size()))
+  {
+  }
+  double mean;
+  double error;
+};
+
+} // namespace
+
+/// On a sphere of radius 1, the part of degree l has the variance
+/// 4π ν κ^(2ν) / (κ² + l (l + 1))^(ν + 1) along each harmonic of norm 1.
+TEST(MaternField, HasTheVarianceOfEachDegreeOnASphere)
+{
+  constexpr Id Samples = 400;
+  constexpr double Range = 1.0;
+  const TriangleMesh mesh = Transform(GeodesicSphere(12), { 1, 2, 3 }, 0.4);
+  const MultiVector p = PointCoordinates(mesh);
+  const double areaOfPoint = 4.0 * Pi / double(p.rows());
+  const MultiVector harmonics[] = { MultiVector::Ones(p.rows(), 1), p,
+    (MultiVector(p.rows(), 3) << p.col(0).cwiseProduct(p.col(1)), p.col(1).cwiseProduct(p.col(2)),
+      p.col(2).cwiseProduct(p.col(0)))
+      .finished() };
+  for (const bool isOnHats : { false, true })
+  {
+    const std::shared_ptr<const FiniteElementSpace> space = BuildEither(mesh, isOnHats, 5, 1e-2);
+    for (const int smoothness : { 1, 2, 3 })
+    {
+      const double kappa2 = 8.0 * smoothness / (Range * Range);
+      const MultiVector samples = SamplesOf(*space, FieldOn(space, Range, smoothness), Samples);
+      for (const int degree : { 0, 1, 2 })
+      {
+        const MultiVector& harmonic = harmonics[degree];
+        const Eigen::RowVectorXd norms = harmonic.colwise().norm() * std::sqrt(areaOfPoint);
+        const Eigen::MatrixXd parts =
+          areaOfPoint * samples.transpose() * harmonic * norms.cwiseInverse().asDiagonal();
+        const double exact = 4.0 * Pi * smoothness * std::pow(kappa2, smoothness) /
+                             std::pow(kappa2 + degree * (degree + 1), smoothness + 1);
+        const double count = double(parts.size());
+        EXPECT_NEAR(parts.squaredNorm() / count / exact, 1.0, 4.0 * std::sqrt(2.0 / count) + 0.02)
+          << isOnHats << smoothness << degree;
+      }
+    }
+  }
+}
+
+/// The covariance at several distances, far from the boundary of a square.
+TEST(MaternField, HasTheCovarianceOfMaternOnAPlane)
+{
+  constexpr Id Samples = 240;
+  constexpr int N = 64;
+  constexpr double Range = 0.125; // eight cells
+  const TriangleMesh mesh = Transform(FlatRectangle(N, N), { 1, 2, 3 }, 0.3);
+  for (const bool isOnHats : { false, true })
+  {
+    const std::shared_ptr<const FiniteElementSpace> space = BuildEither(mesh, isOnHats, 6, 1e-2);
+    for (const int smoothness : { 1, 2, 3 })
+    {
+      const MultiVector samples = SamplesOf(*space, FieldOn(space, Range, smoothness), Samples);
+      for (const int steps : { 0, 4, 8 })
+      {
+        // The mean over points and both axes, for each sample.
+        Eigen::VectorXd products = Eigen::VectorXd::Zero(Samples);
+        int count = 0;
+        for (int j = N / 4; j < N - N / 4; ++j)
+        {
+          for (int i = N / 4; i < N - N / 4; ++i, count += 2)
+          {
+            const auto at = [&](int x, int y) { return samples.row(y * (N + 1) + x).array(); };
+            products.array() += (at(i, j) * (at(i + steps, j) + at(i, j + steps))).transpose();
+          }
+        }
+        const Estimate found(products / count);
+        EXPECT_LT(found.error, 0.03);
+        EXPECT_NEAR(
+          found.mean, Matern(double(steps) / N / Range, smoothness), 4.0 * found.error + 0.02)
+          << isOnHats << smoothness << " " << steps;
+      }
+    }
+  }
+}
+
+/// Natural boundaries reflect the field, so the variance is twice as large on an edge.
+TEST(MaternField, HasTwiceTheVarianceOnABoundary)
+{
+  constexpr Id Samples = 200;
+  constexpr int N = 48;
+  const std::shared_ptr<const FiniteElementSpace> space =
+    BuildEither(FlatRectangle(N, N), true, 5, 1e-2);
+  const MultiVector samples = SamplesOf(*space, FieldOn(space, 0.2, 2), Samples);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(Samples);
+  for (int i = N / 4; i <= N - N / 4; ++i)
+  {
+    squares += samples.row(i).cwiseAbs2().transpose() / (N / 2 + 1);
+  }
+  const Estimate found(squares);
+  EXPECT_LT(found.error, 0.15);
+  EXPECT_NEAR(found.mean, 2.0, 4.0 * found.error + 0.04);
+}
+
+TEST(MaternField, GivesTheSameBitsForAnyNumberOfThreads)
+{
+  const TriangleMesh mesh = GeodesicSphere(10);
+  for (const bool isOnHats : { false, true })
+  {
+    for (const int smoothness : { 1, 2, 3 })
+    {
+      const auto sample = [&](int threads)
+      {
+        MaternOptions options;
+        options.smoothness = smoothness;
+        options.kappa = 0.3;
+        options.multigrid.threads = threads;
+        const MaternField field(BuildEither(mesh, isOnHats, 5, 1e-2, threads), options, threads);
+        return field.Sample(1, 2, 3, threads).coefficients;
+      };
+      EXPECT_EQ(sample(1), sample(3)) << isOnHats << smoothness;
+    }
+  }
+}
+
+TEST(MaternField, RefusesOptionsOutOfRange)
+{
+  const std::shared_ptr<const FiniteElementSpace> space =
+    BuildEither(GeodesicSphere(4), false, 3, 1e-2);
+  for (const double kappa : { 0.0, -1.0, std::nan(""), double(INFINITY) })
+  {
+    MaternOptions options;
+    options.kappa = kappa;
+    EXPECT_THROW(MaternField(space, options), InvalidInput);
+  }
+  for (const int smoothness : { 0, 4 })
+  {
+    MaternOptions options;
+    options.smoothness = smoothness;
+    EXPECT_THROW(MaternField(space, options), InvalidInput);
+  }
+}
