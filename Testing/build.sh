@@ -38,6 +38,15 @@ mapfile -t BUILD_PACKAGES < <(ParaViewPackages "$(SuiteOfHere)")
 
 Say() { printf '%s\n' "-- $*" >&2; }
 
+# A mistyped folder would skip the tests that need it.
+RequireMeshes()
+{
+  if [ -n "${GRIDFEM_DATA_DIR:-}" ] && [ ! -d "$GRIDFEM_DATA_DIR" ]; then
+    Say "GRIDFEM_DATA_DIR is no folder: $GRIDFEM_DATA_DIR"
+    return 1
+  fi
+}
+
 # Runs a command with its output kept in a file; shows the end of that only when the command fails.
 Quietly()
 {

@@ -11,16 +11,24 @@ Usage: Testing/checks.sh STEP...
   tidy       clang-tidy, with the checks of .clang-tidy, over the sources of Filters that differ from
              origin/main, or from GRIDFEM_SINCE where that names another commit
   tidy-all   the same over all of Filters, some hours of one processor
-  sanitize   random problems of Core with the address and undefined-behaviour sanitizers, in
-             build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
+  files      every file compiled alone, for any processor, with the benchmarks, in build-files/:
+             continuous integration puts files together, which hides a missing include
+  sanitize   the tests of Core and random problems with the address and undefined-behaviour sanitizers,
+             in build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
+  sanitize-filters
+             the same with filters on damaged data, tests of filters, and the tests of ranks, in
+             build-sanitize-filters/
   threads    ThreadSanitizer, with clang, on the tests of Core and random problems, in build-threads/
   coverage   which lines of Core its tests run, in build-coverage/; fails where they are less than nine in ten
+  mutants    deliberate errors, each of which must fail a test, in a copy of the sources in build-mutants/
   long       the tests that continuous integration leaves out: limits of memory, upgrades, the wheel, a user
-             without a home folder, and 8,000 more random problems
+             without a home folder, and more random problems and damaged data
   ranks      the tests of ranks on two and four of them; every other run has them on three
   valgrind   leaks and wrong memory on some tests of Core and of the filters, and on random problems, in
              build-valgrind/
-  all        all but tidy-all
+  plain      other_paraview.sh SUITE-vtk: the filters without ParaView, with this Debian's VTK
+  package    package.sh: the Debian package
+  all        all but tidy-all; goes on after a failure, and ends with a table of the results
 
 Installs what is missing, and fails where something is found. GRIDFEM_JOBS: processes at the same time.
 Continuous integration runs none of them, because they take from minutes to hours.
@@ -94,7 +102,7 @@ Threads()
   # Without libomp's archer every barrier is a false alarm.
   export OMP_TOOL_LIBRARIES=libarcher.so
   export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.](Core|More|Defects|MoreDefects)$" < /dev/null
+  ctest --test-dir "$folder" --no-tests=error --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.](Core|More|Defects|MoreDefects)$" < /dev/null
   "$folder/bin/FuzzCore" 1 500
 }
 
@@ -105,16 +113,60 @@ Sanitize()
   mkdir -p "$folder"
   (cd "$SOURCE" && Quietly "$folder/configure.log" cmake --preset sanitize)
   Say "Building in $folder"
-  Quietly "$folder/build.log" cmake --build "$folder" --target FuzzCore -j "$JOBS"
+  Quietly "$folder/build.log" cmake --build "$folder" -j "$JOBS"
+  ctest --test-dir "$folder" --no-tests=error --output-on-failure --timeout 1200 -j "$JOBS" \
+    -E "^Rules[.]|^Fuzz[.](Core|More|Defects|MoreDefects)$" < /dev/null
   "$folder/bin/FuzzCore" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
   "$folder/bin/FuzzCore" defects "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
+}
+
+# MPI and VTK keep memory to the end of a program.
+SanitizeFilters()
+{
+  local folder="$SOURCE/build-sanitize-filters" test
+  local tests="TestFailureRule TestPipeline TestGhostCells TestSelection TestOtherDataSets TestBlocksAsOne"
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+  BuildFor "$folder" "$tests FuzzFilters Testing/Parallel/all" -DGRIDFEM_BUILD_VTK=ON -DGRIDFEM_BUILD_PLUGIN=ON \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DCMAKE_CXX_FLAGS="$(SanitizeFlags)"
+  export ASAN_OPTIONS=detect_leaks=0
+  for test in $tests; do
+    "$folder/bin/$test" --gtest_brief=1
+  done
+  "$folder/bin/FuzzFilters" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
+  ctest --test-dir "$folder" --no-tests=error --output-on-failure --timeout 1200 -R "^Parallel[.]" < /dev/null
+}
+
+# Those of the preset.
+SanitizeFlags()
+{
+  sed -n 's/.*"CMAKE_CXX_FLAGS": "\(-fsanitize=address[^"]*\)".*/\1/p' "$SOURCE/CMakePresets.json"
+}
+
+Files()
+{
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" "${BENCHMARK_PACKAGES[@]}"
+  BuildFor "$SOURCE/build-files" all -DGRIDFEM_BUILD_VTK=ON -DGRIDFEM_BUILD_PYTHON=ON \
+    -DGRIDFEM_BUILD_BENCHMARKS=ON -DGRIDFEM_NATIVE=OFF -DGRIDFEM_WERROR=ON \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_BUILD_TYPE=Debug
+}
+
+# The errors are made in a copy, so that the sources stay as they are.
+Mutants()
+{
+  local copy="$SOURCE/build-mutants/source"
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" rsync
+  mkdir -p "$copy"
+  rsync -a --delete --exclude "/build*" --exclude .git "$SOURCE/" "$copy"
+  Quietly "$SOURCE/build-mutants/configure.log" cmake -S "$copy" -B "$copy/build" -G Ninja \
+    -DCMAKE_BUILD_TYPE=Release
+  python3 "$copy/Testing/mutants.py" "$copy"
 }
 
 Long()
 {
   InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
   BuildTree all -DGRIDFEM_BUILD_PYTHON=ON
-  ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" -L "^Long$" < /dev/null
+  ctest --test-dir "$BUILD" --no-tests=error --output-on-failure --timeout 300 -j "$JOBS" -L "^Long$" < /dev/null
 }
 
 Ranks()
@@ -122,7 +174,7 @@ Ranks()
   local failed=0
   InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
   BuildTree all -DGRIDFEM_BUILD_PYTHON=ON -DGRIDFEM_TEST_RANKS="2;4"
-  ctest --test-dir "$BUILD" --output-on-failure -R "^(Parallel|Ranks)[.].*On[24]$" < /dev/null || failed=1
+  ctest --test-dir "$BUILD" --no-tests=error --output-on-failure -R "^(Parallel|Ranks)[.].*On[24]$" < /dev/null || failed=1
   BuildTree all -DGRIDFEM_BUILD_PYTHON=ON -UGRIDFEM_TEST_RANKS
   return $failed
 }
@@ -150,27 +202,40 @@ Valgrind()
   UnderValgrind FuzzCore 1 20
 }
 
+# Runs one step after the other, and prints the rows of the table in CONTRIBUTING.md.
+All()
+{
+  local failed=0 step begin result rows=() commit
+  commit="$(git -C "$SOURCE" rev-parse --short HEAD)"
+  for step in cppcheck tidy files sanitize sanitize-filters threads coverage mutants long ranks valgrind plain \
+    package; do
+    begin=$SECONDS
+    result="nothing found"
+    "$SOURCE/Testing/checks.sh" "$step" || { result="failed"; failed=1; }
+    rows+=("| $step | $result | $(date +%F) | $commit | $(((SECONDS - begin + 59) / 60)) |")
+  done
+  printf '%s\n' "| step | result | day | commit | minutes |" "|---|---|---|---|---|" "${rows[@]}"
+  return $failed
+}
+
+RequireMeshes
 for step in "$@"; do
   case "$step" in
     cppcheck) Cppcheck ;;
     tidy) TidyChanged ;;
     tidy-all) TidyAll ;;
+    files) Files ;;
     sanitize) Sanitize ;;
+    sanitize-filters) SanitizeFilters ;;
     threads) Threads ;;
     coverage) "$SOURCE/Testing/coverage.sh" ;;
+    mutants) Mutants ;;
     long) Long ;;
     ranks) Ranks ;;
     valgrind) Valgrind ;;
-    all)
-      Cppcheck
-      TidyChanged
-      Sanitize
-      Threads
-      "$SOURCE/Testing/coverage.sh"
-      Long
-      Ranks
-      Valgrind
-      ;;
+    plain) "$SOURCE/Testing/other_paraview.sh" "$(SuiteOfHere)-vtk" ;;
+    package) "$SOURCE/Testing/package.sh" ;;
+    all) All ;;
     *)
       Say "There is no step $step; see --help"
       exit 1

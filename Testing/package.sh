@@ -53,13 +53,13 @@ PLACE="$(mktemp -d)"
 trap 'rm -rf "$PLACE"' EXIT
 mapfile -t options < <(RootOptions "$SUITE")
 Say "Making a root of $SUITE in $PLACE, and installing the package there"
-cp "$PACKAGE" "$BUILD/gridfem.deb"
+cp "$PACKAGE" "$PLACE/gridfem.deb" # the hook splits its line at spaces
+cp "$SOURCE/Testing/Package/try_package.py" "$PLACE"
 mmdebstrap --quiet --variant=minbase "${options[@]}" \
-  --customize-hook="copy-in $BUILD/gridfem.deb $SOURCE/Testing/Package/try_package.py /srv" \
+  --customize-hook="copy-in $PLACE/gridfem.deb $PLACE/try_package.py /srv" \
   --customize-hook='chroot "$1" apt-get install -y -qq --no-install-recommends /srv/gridfem.deb \
     paraview python3-paraview python3-numpy xvfb xauth > /dev/null 2>&1' \
   --customize-hook='chroot "$1" sh -c "PV_PLUGIN_CONFIG_FILE=\$(dpkg -L gridfem | grep plugins.xml) \
     xvfb-run -a pvpython /srv/try_package.py"' \
   "$SUITE" "$PLACE/root.tar"
-rm "$BUILD/gridfem.deb"
 Say "$(basename "$PACKAGE") works in $SUITE"

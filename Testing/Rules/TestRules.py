@@ -10,9 +10,16 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "Testing"))
+
+import mutants
+import results
+
 DOCUMENTATION = ROOT / "Plugin/Documentation"
 FOLDERS = ("Filters", "Plugin", "Testing", "Examples", "CMake")
 SOURCE_SUFFIXES = (".h", ".cxx")
@@ -218,6 +225,43 @@ class Tests(Rule):
                      for name in set(re.findall(r"^@(\w+)@$", panels, re.M))
                      if not (ROOT / f"Plugin/Shared/{name}.xml").exists()]
         self.assertNothing(offences, "Classes, panels and fragments belong together:")
+
+
+class Checks(Rule):
+    """The scripts that check the tests themselves."""
+
+    def test_deliberate_errors_fit_the_sources(self):
+        lines = [(name, (ROOT / file).read_text().count(line + "\n"), test)
+                 for name, file, line, _, test in mutants.MUTANTS]
+        offences = [f"{name}: the line is there {count} times" for name, count, _ in lines if count != 1]
+        offences += [f"{name}: no test {test}" for name, _, test in lines
+                     if "." not in test and not any((ROOT / "Testing").rglob(f"{test}.cxx"))]
+        self.assertNothing(offences, "Testing/mutants.py names lines and tests that are not there:")
+
+    def said(self, cases, is_whole):
+        """What results.py says of a run, and whether continuous integration fails."""
+        with tempfile.NamedTemporaryFile("w", suffix=".xml") as file:
+            file.write("<testsuite>" + "".join(cases) + "</testsuite>")
+            file.flush()
+            return results.check(file.name, is_whole, True)
+
+    def test_skipped_and_missing_tests_are_seen(self):
+        ran = [f'<testcase name="{group}Any" status="run"/>' for group in results.GROUPS]
+        skip = '<testcase name="Odd" status="notrun"><skipped/><system-out>{}</system-out></testcase>'
+        self.assertEqual(self.said(ran, True), ([f"{len(ran)} tests, 0 of them skipped"], False))
+        self.assertEqual(self.said(ran[1:], False)[1], False)
+        lines, failed = self.said(ran[1:], True)
+        self.assertTrue(failed and results.GROUPS[0] in lines[-1])
+        lines, failed = self.said(ran + [skip.format("a.cxx:5: Skipped\nno program of that name\n")], True)
+        self.assertTrue(failed)
+        self.assertIn("1 skipped: no program of that name", lines)
+        self.assertTrue(self.said([], False)[1])
+        with unittest.mock.patch.dict("os.environ", {"GRIDFEM_DATA_DIR": "/nowhere"}):
+            lines, failed = self.said(ran + [skip.format("Skipped\nno real mesh knot.ply\n")], True)
+        self.assertFalse(failed)
+        self.assertIn("1 skipped: " + results.WITHOUT_MESHES, lines)
+        with unittest.mock.patch.dict("os.environ", {"GRIDFEM_DATA_DIR": str(ROOT)}):
+            self.assertTrue(self.said(ran + [skip.format("Skipped\nno real mesh knot.ply\n")], True)[1])
 
 
 class Examples(Rule):

@@ -1,7 +1,8 @@
-// Checks, on a mesh of 200,000 triangles, that an abort is served soon at any stage and leaves a
-// working filter. Progress is reported at least as often. Seconds are the computing time of the
-// process on one thread, so that other work on the machine does not count. More threads take less
-// time. Times grow with the mesh.
+// Checks, on a mesh of 200,000 triangles, that an abort at any stage is served within half a second
+// and leaves a working filter. Progress is reported at least every half second. Machines that take
+// more than a tenth of a second to make the mesh have five times that time instead. Seconds are the
+// computing time of the process on one thread, so that other work on the machine does not count.
+// More threads take less time. Times grow with the mesh.
 
 #include "AllFilters.h"
 
@@ -20,13 +21,13 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// The longest wait for an abort, as a multiple of the time to make the mesh on the same machine,
-/// which is 0.04 s. At most 0.7 were measured.
-constexpr double Longest = 8.0;
-
-/// The longest time between two reports of progress, in the same unit. At most 5.5 were measured,
-/// for a hundred modes of Spectral Signatures, and 2.7 for all other filters.
-constexpr double LongestSilence = 10.0;
+/// Returns the longest time to serve an abort, and between two reports of progress. Where the mesh
+/// takes 0.04 s, 0.03 s and 0.22 s were measured; the second for a hundred modes of Spectral
+/// Signatures.
+double LongestWait(double secondsForTheMesh)
+{
+  return std::max(0.5, 5.0 * secondsForTheMesh);
+}
 
 /// The computing time of the whole process.
 double SecondsComputed()
@@ -135,6 +136,7 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
   auto sphere = ManyTriangles();
   const double unit = SecondsComputed() - begin;
   std::cout << "made in " << unit << " s\n";
+  const double longest = LongestWait(unit);
   ASSERT_GE(sphere->GetNumberOfPolys(), 200000);
   auto filter = GetParam().make();
   filter->SetInputData(sphere);
@@ -158,12 +160,12 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
     {
       std::cout << "longest silence " << reports.Longest() << " s, until " << reports.LongestAt()
                 << "\n";
-      EXPECT_LT(reports.Longest(), LongestSilence * unit);
+      EXPECT_LT(reports.Longest(), longest);
       break; // done before, or on its last steps
     }
     ++aborts;
     std::cout << "after " << wait << " s: " << late << " s, at " << filter->GetProgress() << "\n";
-    EXPECT_LT(late, Longest * unit) << "after " << wait << " s";
+    EXPECT_LT(late, longest) << "after " << wait << " s";
   }
   EXPECT_GE(aborts, 2);
   EXPECT_FALSE(IsEmptyData(filter->GetOutputDataObject(0)));

@@ -124,13 +124,17 @@ TEST(PrincipalCurvaturesFilter, TakesCoincidentPointsAsOne)
   vtkNew<vtkPrincipalCurvatures> filter;
   filter->SetInputData(ToPolyData(sphere));
   filter->Update();
-  for (const double value : PointValues(filter->GetOutput(), "MaximumCurvature"))
+  const auto joined = PointValues(filter->GetOutput(), "MaximumCurvature");
+  ASSERT_EQ(joined.size(), sphere.points.size());
+  for (const double value : joined)
   {
     ASSERT_NEAR(value, 1.0, 1e-9);
   }
   filter->WeldCoincidentPointsOff();
   filter->Update();
-  for (const double value : PointValues(filter->GetOutput(), "MaximumCurvature"))
+  const auto alone = PointValues(filter->GetOutput(), "MaximumCurvature");
+  ASSERT_EQ(alone.size(), sphere.points.size());
+  for (const double value : alone)
   {
     ASSERT_NEAR(value, 0.0, 1e-9); // every triangle is alone
   }

@@ -138,6 +138,7 @@ TEST_P(StitchColors, KeepsTheMeanOfOneScan)
   filter->SetReferenceLabel(10); // scan 3: 0.95 x 100 + 25
   filter->Update();
   const auto stitched = PointValues(filter->GetOutput(), "StitchedColors");
+  ASSERT_FALSE(stitched.empty());
   for (std::size_t k = 0; k < stitched.size(); ++k)
   {
     ASSERT_NEAR(stitched[k], k % 3 == 1 ? 95.0 - 17.5 : 120.0, 0.05);
