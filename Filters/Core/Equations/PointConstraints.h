@@ -13,7 +13,8 @@ namespace gridfem
 struct ConstraintOptions
 {
   /// Weight of a misfit, relative to the diagonal of the matrix. Each step divides the misfit by
-  /// about this factor. The iterations of a step grow slowly with it. > 0
+  /// about this factor, or by about 30 beside pulled rows. The iterations of a step grow slowly
+  /// with it. > 0
   double penalty = 1e3;
   /// Steps end when the largest misfit is this fraction of the range of the values, or of the root
   /// mean square of the solution if that is larger. > 0
@@ -41,8 +42,6 @@ public:
 private:
   std::vector<MultigridLevel> BuildLevels(const SpaceLevels& space, double a, double b,
     HeldRows rows, double penalty, const MultigridOptions& options, const Progress& progress);
-  void AddWholePenalty(
-    std::size_t level, const DistributedRows& distributed, SparseMatrix& A, int threads) const;
 
   std::vector<double> pull_; // HeldRows::pull
   RowPenalty penalty_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace gridfem
@@ -81,7 +82,7 @@ RowPenalty::RowPenalty(
   }
 }
 
-void RowPenalty::AddTo(std::size_t level, SparseMatrix& A, int threads) const
+void RowPenalty::AddTo(std::size_t level, double factor, SparseMatrix& A, int threads) const
 {
   const SparseMatrix& rows = levels_[level].rows;
   const SparseMatrix& transposed = levels_[level].transposed;
@@ -93,16 +94,27 @@ void RowPenalty::AddTo(std::size_t level, SparseMatrix& A, int threads) const
         for (Id t = transposed.rowBegin[i]; t < transposed.rowBegin[i + 1]; ++t)
         {
           const Index row = transposed.column[t];
-          const double factor = weight_[row] * transposed.value[t];
+          const double weight = factor * weight_[row] * transposed.value[t];
           for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
           {
             const Id place = FindEntry(A, i, rows.column[k]);
-            const double term = factor * rows.value[k];
+            const double term = weight * rows.value[k];
             A.value[place >= 0 ? place : FindEntry(A, i, i)] += place >= 0 ? term : std::abs(term);
           }
         }
       }
     });
+}
+
+void RowPenalty::AddSumTo(std::size_t level, double factor, const DistributedRows& distributed,
+  SparseMatrix& A, int threads) const
+{
+  SparseMatrix sum = A;
+  std::fill(sum.value.begin(), sum.value.end(), 0.0);
+  this->AddTo(level, factor, sum, threads);
+  distributed.SumNumbers(sum.value.data(), static_cast<Id>(sum.value.size()));
+  std::transform(
+    A.value.begin(), A.value.end(), sum.value.begin(), A.value.begin(), std::plus<double>());
 }
 
 MultiVector RowPenalty::Weighted(const MultiVector& values) const

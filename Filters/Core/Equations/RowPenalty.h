@@ -38,15 +38,19 @@ public:
   /// Throws InvalidInput when the rows are not of this space.
   RowPenalty(const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads);
 
-  /// C.
-  const SparseMatrix& Rows() const { return levels_.front().rows; }
+  /// C on a level.
+  const SparseMatrix& Rows(std::size_t level = 0) const { return levels_[level].rows; }
 
   /// W r for values r at the places.
   MultiVector Weighted(const MultiVector& values) const;
 
-  /// A += Cᵀ W C. Terms without a place in the pattern go to the diagonal, so that the sum stays
-  /// positive. That happens only below hats, on a level that preconditions.
-  void AddTo(std::size_t level, SparseMatrix& A, int threads) const;
+  /// A += factor Cᵀ W C. Terms without a place in the pattern go to the diagonal, so that the sum
+  /// stays positive. That happens only below hats, on a level that preconditions.
+  void AddTo(std::size_t level, double factor, SparseMatrix& A, int threads) const;
+
+  /// AddTo on a level that every process holds whole, while each has rows of its own. Collective.
+  void AddSumTo(std::size_t level, double factor, const DistributedRows& distributed,
+    SparseMatrix& A, int threads) const;
 
   /// Cᵀ W r for values r at the places: rows = functions.
   MultiVector LoadOf(const MultiVector& values, int threads) const;

@@ -224,7 +224,7 @@ void MeanCurvatureFlow::FillMatrix(
   moving_->FillMatrix(level, 1.0, timeStep, matrix, job);
   if (boundary_)
   {
-    boundary_->Penalty().AddTo(level, matrix, job.threads);
+    boundary_->Penalty().AddTo(level, 1.0, matrix, job.threads);
   }
 }
 
