@@ -41,7 +41,9 @@
  * Here n is the normal, u the Potential, w the StreamFunction, and h the rest. The rest has neither
  * sources nor eddies. It goes around handles and holes, and holds everything that the functions
  * cannot follow. The three parts are orthogonal: the integrals of their squares add up to the
- * integral of v². On cells they add up to v. At points they are projected like the gradient.
+ * integral of v². If the surface has a boundary, this holds on hat functions, and on the grid up to
+ * the error of the functions. On cells the parts add up to v. At points they are projected like the
+ * gradient.
  *
  * w is 0 along boundaries, so h does not cross the boundary. Flow across the boundary is in the
  * gradient part. Edges of more than two triangles count as a boundary for w. Triangles may face
