@@ -195,6 +195,13 @@ BoundaryTerms DistributedSurface::OnBoundary(
   return TermsOnBoundary(functions_->Levels(), this->AreCoincidentPointsWelded(), flux, values);
 }
 
+EdgeSamples DistributedSurface::SampleBoundary(bool ofNested) const
+{
+  const RankLevels& levels = functions_->Levels();
+  return gridfem::SampleBoundary(
+    ofNested ? levels.OfGrid() : levels, this->AreCoincidentPointsWelded());
+}
+
 std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
   const DistanceOptions& options, const Job& job) const
 {

@@ -60,6 +60,7 @@ public:
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
   std::unique_ptr<DistanceMethod> MakeDistance(
     const DistanceOptions& options, const Job& job) const override;
+  EdgeSamples SampleBoundary(bool ofNested) const override;
   std::vector<char> PointsWithFunctions() const override;
   void FillCopies(MultiVector& atPoints) const override;
   ///@}

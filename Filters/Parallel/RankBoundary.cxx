@@ -109,10 +109,19 @@ MultiVector RowsOfEnds(
   return rows;
 }
 
+/// Collective. The boundary edges that this rank samples. A rank that owns a point, or a cell that
+/// an edge runs through, has received all triangles with them.
+std::vector<TriangleEdge> BoundaryEdges(const RankLevels& levels, bool weldCoincidentPoints)
+{
+  const RankSpace& space = levels.Space();
+  std::vector<TriangleEdge> edges;
+  space.Ranks().Together(
+    [&] { edges = FindSurfaceEdges(space.Own().Mesh(), weldCoincidentPoints).boundary; });
+  return levels.Hats() ? EdgesOfHats(levels, edges) : edges;
+}
+
 } // namespace
 
-/// A rank that owns a point, or a cell that an edge runs through, has received all triangles with
-/// them.
 BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoints,
   const MultiVector* flux, const MultiVector* values)
 {
@@ -120,12 +129,7 @@ BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoint
   const Communicator& ranks = space.Ranks();
   const FiniteElementSpace& own = levels.Own();
   const TriangleMesh& mesh = space.Own().Mesh();
-  std::vector<TriangleEdge> edges;
-  ranks.Together([&] { edges = FindSurfaceEdges(mesh, weldCoincidentPoints).boundary; });
-  if (levels.Hats())
-  {
-    edges = EdgesOfHats(levels, edges);
-  }
+  const std::vector<TriangleEdge> edges = BoundaryEdges(levels, weldCoincidentPoints);
   double parts = 0.0;
   ranks.Together(
     [&] { parts = (levels.Hats() ? !edges.empty() : HasPart(space, edges)) ? 1.0 : 0.0; });
@@ -154,6 +158,16 @@ BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoint
       [&] { terms.held = Join(terms.held, HoldWithinEdges(own, mesh, known, received)); });
   }
   return terms;
+}
+
+EdgeSamples SampleBoundary(const RankLevels& levels, bool weldCoincidentPoints)
+{
+  const RankSpace& space = levels.Space();
+  const std::vector<TriangleEdge> edges = BoundaryEdges(levels, weldCoincidentPoints);
+  EdgeSamples samples;
+  space.Ranks().Together(
+    [&] { samples = levels.Own().SamplesOfSegments(SegmentsOf(edges, space.Own().Mesh())); });
+  return samples;
 }
 
 } // namespace gridfem

@@ -16,6 +16,9 @@ namespace gridfem
 BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoints,
   const MultiVector* flux, const MultiVector* values);
 
+/// Collective. This rank's part of the samples along the boundary.
+EdgeSamples SampleBoundary(const RankLevels& levels, bool weldCoincidentPoints);
+
 } // namespace gridfem
 
 #endif

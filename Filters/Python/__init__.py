@@ -54,7 +54,7 @@ def spectrum(points, cells, number=20, **properties):
 
     Returns the eigenvalues (K), in one over squared length, and their functions at the points (N, K).
     The mean square of a function is one over the area. K is `number`, or less on a surface with fewer
-    functions.
+    functions. With ZeroBoundaryValues the functions are 0 on the boundary.
     """
     results = _solve("LaplaceSpectrum", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["Eigenvalues"], results["Modes"]

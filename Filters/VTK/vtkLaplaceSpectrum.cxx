@@ -28,17 +28,6 @@
 
 vtkStandardNewMacro(vtkLaplaceSpectrum);
 
-namespace
-{
-
-/// The first mode that is a time step. Mode 0 is constant and shows nothing.
-int FirstTimeStep(int numberOfModes)
-{
-  return std::min(1, numberOfModes - 1);
-}
-
-} // namespace
-
 struct vtkLaplaceSpectrum::Internals
 {
   gridfem::SpectrumSolver Solver;
@@ -75,11 +64,17 @@ std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
   }
   const bool isSolved = this->Data->WantedModes == this->NumberOfModes;
   const int count = isSolved ? this->Data->FoundModes : this->NumberOfModes;
-  for (int mode = FirstTimeStep(count); mode < count; ++mode)
+  for (int mode = this->FirstTimeStep(count); mode < count; ++mode)
   {
     times.push_back(mode);
   }
   return times;
+}
+
+/// The first mode that is a time step. A mode 0 that is constant shows nothing.
+int vtkLaplaceSpectrum::FirstTimeStep(int numberOfModes) const
+{
+  return this->ZeroBoundaryValues ? 0 : std::min(1, numberOfModes - 1);
 }
 
 bool vtkLaplaceSpectrum::NeedsWholeSurface()
@@ -129,6 +124,7 @@ void vtkLaplaceSpectrum::Solve()
   options.equation = state.options;
   options.numberOfModes = this->NumberOfModes;
   options.accuracy = this->Accuracy;
+  options.zeroBoundaryValues = this->ZeroBoundaryValues;
   gridfem::SpectrumSolver::Input input;
   input.announce = [&](const std::string& cost, bool takesHours)
   { state.bridge.Announce(cost, takesHours); };
@@ -152,7 +148,7 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
   {
     return this->Mode;
   }
-  const int first = FirstTimeStep(count);
+  const int first = this->FirstTimeStep(count);
   if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
   {
     return first;
@@ -240,6 +236,7 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfModes: " << this->NumberOfModes << "\n";
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "AllModes: " << this->AllModes << "\n";
+  os << indent << "ZeroBoundaryValues: " << this->ZeroBoundaryValues << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

@@ -4,7 +4,7 @@
  *
  * The eigenfunctions are the standing waves of the surface, ascending in frequency. The first
  * modes, one per connected component, have eigenvalue 0 and are constant on every component.
- * Nothing flows across boundaries.
+ * Nothing flows across boundaries, unless ZeroBoundaryValues makes the modes vanish there.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -44,9 +44,10 @@
  *   it is 0, the error may be far larger.
  *
  * Time: every mode but mode 0 is a time step, with its index as time value, unless AllModes is on
- * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. All modes are
- * computed once. A change of time or of Mode computes nothing. All modes belong to the input at one
- * time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
+ * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. With
+ * ZeroBoundaryValues it is a time step, too. All modes are computed once. A change of time or of
+ * Mode computes nothing. All modes belong to the input at one time, which stays the same. With
+ * AllModes on or Mode fixed, the times are the input's.
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues in the function space.
  * Depth or Accuracy determines the error of the space itself. The filter uses all shared properties
@@ -96,6 +97,17 @@ public:
   vtkSetMacro(AllModes, bool);
   vtkGetMacro(AllModes, bool);
   vtkBooleanMacro(AllModes, bool);
+  ///@}
+
+  ///@{
+  /**
+   * When on, the modes vanish on the boundary, as those of a drum, and nothing is constant on a
+   * component with a boundary. On the grid they vanish up to the error of the functions. Default
+   * off: nothing flows across the boundary.
+   */
+  vtkSetMacro(ZeroBoundaryValues, bool);
+  vtkGetMacro(ZeroBoundaryValues, bool);
+  vtkBooleanMacro(ZeroBoundaryValues, bool);
   ///@}
 
   ///@{
@@ -153,6 +165,7 @@ protected:
   int NumberOfModes = 20;
   int Mode = -1;
   bool AllModes = false;
+  bool ZeroBoundaryValues = false;
   bool TrackMetric = false;
   double Accuracy = 0.0;
 
@@ -161,6 +174,7 @@ private:
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
   void Solve();
+  int FirstTimeStep(int numberOfModes) const;
   int ShownMode(vtkInformation* output) const;
   void AddMode(int mode, const std::string& name, vtkPolyData* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);

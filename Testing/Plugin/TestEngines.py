@@ -76,6 +76,7 @@ class Engines(unittest.TestCase):
     def test_spectrum(self):
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[0])
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[1])
+        self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, ZeroBoundaryValues=True, **o)[0])
 
     def test_signatures(self):
         self.compare(lambda g, p, c, **o: g.signatures(p, c, 10, NumberOfScales=3, **o))

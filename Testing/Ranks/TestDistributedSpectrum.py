@@ -67,6 +67,11 @@ class DistributedSpectrum(unittest.TestCase):
         for mesh, kind in ((ranks.ellipsoid(), "contiguous"), (ranks.bowl(), "ghosts")):
             self.same_as_alone(mesh, kind, FunctionSpace=1)
 
+    def test_zero_on_the_boundary(self):
+        for kind, space in (("scattered", 0), ("one rank is empty", 0), ("ghosts", 1)):
+            with self.subTest(kind=kind, space=space):
+                self.same_as_alone(ranks.bowl(), kind, ZeroBoundaryValues=1, FunctionSpace=space)
+
     def test_time_steps_compute_nothing(self):
         filter_ = made(AllModes=False)
         mine = ranks.piece(ranks.ellipsoid(), "contiguous")

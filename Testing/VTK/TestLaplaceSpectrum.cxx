@@ -1,6 +1,7 @@
 // Tests Laplace Spectrum: eigenvalues in world units, normalized modes, time steps, caching.
 
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "Grid/TriangleMesh.h"
 
@@ -16,6 +17,8 @@
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -349,6 +352,29 @@ TEST_F(LaplaceSpectrum, ManyComponentsSayHowManyModesAreNeeded)
   EXPECT_NE(messages.warnings[0].find("a Number Of Modes above 12."), std::string::npos);
   filter->SetNumberOfModes(13);
   EXPECT_GT(this->Eigenvalues().back(), 1.0);
+}
+
+TEST_F(LaplaceSpectrum, ModesOfADrumAreZeroOnItsBoundary)
+{
+  filter->SetInputData(ToPolyData(FlatRectangle(24, 24)));
+  filter->SetNumberOfModes(4);
+  EXPECT_NEAR(this->Eigenvalues()[0], 0.0, 1e-8);
+  filter->ZeroBoundaryValuesOn();
+  const double exact = 2.0 * 3.14159265358979323846 * 3.14159265358979323846;
+  EXPECT_NEAR(this->Eigenvalues()[0], exact, 0.03 * exact);
+  // Mode 0 is a time step, because it is not constant. It is 2 sin(πx) sin(πy).
+  const std::vector<double> first = this->ModeAt(0.0);
+  double inside = 0.0;
+  double onBoundary = 0.0;
+  for (vtkIdType k = 0; k < static_cast<vtkIdType>(first.size()); ++k)
+  {
+    const Vec3 p(filter->GetOutput()->GetPoint(k));
+    double& largest = std::min({ p[0], p[1], 1.0 - p[0], 1.0 - p[1] }) > 1e-9 ? inside : onBoundary;
+    largest = Larger(largest, std::abs(first[k]));
+  }
+  EXPECT_NEAR(inside, 2.0, 0.1);
+  EXPECT_LT(onBoundary, 0.05);
+  EXPECT_TRUE(messages.warnings.empty());
 }
 
 TEST_F(LaplaceSpectrum, ARunRepeatsBitForBitAndThreadsAgree)

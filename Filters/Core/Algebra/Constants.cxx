@@ -51,8 +51,10 @@ std::vector<double> ExtentsOf(const SparseMatrix& mass, const std::vector<double
 } // namespace
 
 Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
-  Index numberOfComponents, int threads, const DistributedRows* distributed)
-  : component_(std::move(component)), threads_(threads), distributed_(distributed)
+  Index numberOfComponents, int threads, const DistributedRows* distributed,
+  std::vector<char> isHeld)
+  : component_(std::move(component)), isHeld_(std::move(isHeld)), threads_(threads),
+    distributed_(distributed)
 {
   weight_.assign(mass.rows, 0.0);
   mass_.assign(numberOfComponents, 0.0);
@@ -79,13 +81,13 @@ Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
       extent = ExtentsOf(mass, weight_, component_, components);
     }
     // A line's area is rounding, however long it is. A speck has a small area, too.
-    if (isLarge(c) || (!extent.empty() && mass_[c] > 0.0 && extent[c] < LargestSpeck))
-    {
-      massive_.push_back(c);
-    }
-    else
+    if (!isLarge(c) && (extent.empty() || !(mass_[c] > 0.0) || extent[c] >= LargestSpeck))
     {
       mass_[c] = 0.0;
+    }
+    else if (!this->IsHeld(c))
+    {
+      massive_.push_back(c);
     }
   }
 }
@@ -136,7 +138,8 @@ MultiVector Constants::Means(const ConstBlock<Real>& X) const
   SumOverProcesses(distributed_, mean);
   for (Id c = 0; c < components; ++c)
   {
-    mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;
+    const bool hasConstant = mass_[c] > 0.0 && !this->IsHeld(static_cast<Index>(c));
+    mean.row(c) *= hasConstant ? 1.0 / mass_[c] : 0.0;
   }
   return mean;
 }
@@ -146,6 +149,10 @@ void Constants::Deflate(Eigen::MatrixXd& mass) const
   for (Id j = 0; j < mass.cols(); ++j)
   {
     const double total = mass_[component_[j]];
+    if (total > 0.0 && this->IsHeld(component_[j]))
+    {
+      continue;
+    }
     for (Id i = 0; i < mass.rows(); ++i)
     {
       if (component_[i] == component_[j])

@@ -291,4 +291,15 @@ BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMes
   return terms;
 }
 
+EdgeSamples SampleBoundary(
+  const FiniteElementSpace& space, const TriangleMesh& mesh, bool weldCoincidentPoints)
+{
+  std::vector<TriangleEdge> edges;
+  if (!IsClosed(mesh))
+  {
+    edges = FindSurfaceEdges(mesh, weldCoincidentPoints).boundary;
+  }
+  return space.SamplesOfSegments(SegmentsOf(edges, mesh));
+}
+
 } // namespace gridfem

@@ -67,6 +67,10 @@ struct BoundaryTerms
 BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,
   bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values);
 
+/// Samples along the boundary of a surface. No rows without a boundary.
+EdgeSamples SampleBoundary(
+  const FiniteElementSpace& space, const TriangleMesh& mesh, bool weldCoincidentPoints);
+
 } // namespace gridfem
 
 #endif

@@ -19,8 +19,8 @@ inline Constants ConstantsOnLevel(
   const SpaceLevels& space, std::size_t level, const SparseMatrix& mass, int threads)
 {
   Components components = space.ComponentsOf(level, threads);
-  return Constants(
-    mass, std::move(components.ofFunction), components.count, threads, space.Distributed(level));
+  return Constants(mass, std::move(components.ofFunction), components.count, threads,
+    space.Distributed(level), std::move(components.isHeld));
 }
 
 /// The eigenproblem of a level, without a preconditioner. Lists that end among the constants need

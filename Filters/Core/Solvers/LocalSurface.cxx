@@ -127,6 +127,12 @@ BoundaryTerms LocalSurface::OnBoundary(const MultiVector* flux, const MultiVecto
   return TermsOnBoundary(*space_, this->Mesh(), basis_.weldCoincidentPoints, flux, values);
 }
 
+EdgeSamples LocalSurface::SampleBoundary(bool ofNested) const
+{
+  return gridfem::SampleBoundary(
+    ofNested ? *space_->NestedLevels() : *space_, this->Mesh(), basis_.weldCoincidentPoints);
+}
+
 std::vector<char> LocalSurface::PointsWithFunctions() const
 {
   return space_->PointsWithFunctions();

@@ -29,6 +29,7 @@ public:
   double LongestSide() const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
+  EdgeSamples SampleBoundary(bool ofNested) const override;
   std::vector<char> PointsWithFunctions() const override;
 
   /// The functions of the grid; none before they are made.

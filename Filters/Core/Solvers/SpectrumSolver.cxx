@@ -3,6 +3,7 @@
 #include "Solvers/DepthSearch.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SolveWarnings.h"
+#include "Solvers/ZeroBoundary.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -134,7 +135,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
 int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 {
   StageKey key = surface.InputKey();
-  key.Add(options.numberOfModes).Add(options.accuracy);
+  key.Add(options.numberOfModes).Add(options.accuracy).Add(options.zeroBoundaryValues);
   if (key != depthKey_)
   {
     depthKey_ = key;
@@ -174,15 +175,22 @@ void SpectrumSolver::UpdateModes(
       result_.spectrum = {}; // frees its memory first
       RequireMemoryOfModes(surface, options.numberOfModes);
       AnnounceCost(surface, input, options.numberOfModes);
+      std::unique_ptr<const PenalizedLevels> held;
+      if (options.zeroBoundaryValues)
+      {
+        held = ZeroOnBoundary(surface);
+      }
+      lacksBoundary_ = options.zeroBoundaryValues && !held;
+      const SpaceLevels& levels = held ? static_cast<const SpaceLevels&>(*held) : space;
       const SpectrumOptions ofSpectrum = OptionsOfSpectrum(surface, input, options);
       const double split = isNested ? 1.0 : 0.3;
-      Spectrum nested = ComputeNestedSpectrum(space, ofSpectrum, progress.Part(0.0, split));
+      Spectrum nested = ComputeNestedSpectrum(levels, ofSpectrum, progress.Part(0.0, split));
       this->TakeGridErrors(nested, options);
       if (isNested ||
           this->NextDepth(surface, ofModes.accuracy) == surface.UsedOptions().space.depth)
       {
         result_.spectrum =
-          FinishSpectrum(space, std::move(nested), ofSpectrum, progress.Part(split, 1.0));
+          FinishSpectrum(levels, std::move(nested), ofSpectrum, progress.Part(split, 1.0));
       }
       result_.eigenvalues = InWorldUnits(result_.spectrum.eigenvalues, space.UnitLength());
     });
@@ -207,6 +215,11 @@ void SpectrumSolver::Judge(const Surface& surface, const Options& options)
   const FunctionKind kind = surface.UsedOptions().choice.kind;
   result_.warnings =
     WarningsOf(result_.spectrum, options.numberOfModes, PlaceOf(kind, result_.depth));
+  if (lacksBoundary_)
+  {
+    result_.warnings.push_back(
+      "The surface has no boundary, so Zero Boundary Values has no effect.");
+  }
   const std::vector<double>& errors = result_.spectrum.estimatedErrors;
   const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
   result_.isErrorTrusted = AreAllTrusted(result_.spectrum.isErrorTrusted);

@@ -28,6 +28,7 @@ public:
     /// The wanted relative error of the eigenvalues of the surface. Above 0 it chooses the depth,
     /// unless functions are given. Processes that share a surface cannot choose.
     double accuracy = 0.0;
+    bool zeroBoundaryValues = false; // modes vanish on the boundary, else nothing flows across it
 
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
@@ -35,6 +36,7 @@ public:
       visit(self.equation);
       visit("NumberOfModes", self.numberOfModes, Clamped(1, 100000));
       visit("Accuracy", self.accuracy, Clamped(0.0, 0.5));
+      visit("ZeroBoundaryValues", self.zeroBoundaryValues, AnyValue());
     }
   };
 
@@ -94,6 +96,7 @@ private:
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
   bool isConfirmed_ = false;       // whether these errors are certain enough to end a search
   bool wasAccurate_ = false;       // whether they were small enough at the depth before
+  bool lacksBoundary_ = false;     // though the modes are to vanish there
   StageKey depthKey_;              // of the mesh and the wishes that a depth was chosen for
   int chosenDepth_ = 0;
   Result result_;

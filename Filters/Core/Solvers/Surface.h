@@ -126,6 +126,11 @@ public:
   /// The terms that the boundary of the whole surface adds to an equation (TermsOnBoundary).
   virtual BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const = 0;
 
+  /// Samples along the boundary of the whole surface, the part of this process. No rows without a
+  /// boundary.
+  /// @param ofNested  of the functions of Space().NestedLevels()
+  virtual EdgeSamples SampleBoundary(bool ofNested) const = 0;
+
   /// Distances on this surface as it is now. Throws InvalidInput and Aborted.
   virtual std::unique_ptr<DistanceMethod> MakeDistance(
     const DistanceOptions& options, const Job& job) const;

@@ -59,7 +59,7 @@ Components GridSpace::ComponentsOf(std::size_t level, const Job& job) const
 {
   if (level == 0)
   {
-    return { functions_->component, functions_->numberOfComponents };
+    return { functions_->component, functions_->numberOfComponents, {} };
   }
   Components components;
   components.ofFunction = FunctionComponents(functions_->levels.at(level), job.threads);

@@ -113,8 +113,9 @@ LevelRelaxation HatSpace::Relaxation(std::size_t level, const MultigridOptions& 
 
 Components HatSpace::ComponentsOf(std::size_t level, const Job& job) const
 {
-  return level == 0 ? Components{ hats_->functions.component, hats_->functions.numberOfComponents }
-                    : grid_.ComponentsOf(level - 1, job);
+  return level == 0
+           ? Components{ hats_->functions.component, hats_->functions.numberOfComponents, {} }
+           : grid_.ComponentsOf(level - 1, job);
 }
 
 double HatSpace::UnitLength() const

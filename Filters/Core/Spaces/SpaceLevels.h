@@ -13,13 +13,14 @@
 namespace gridfem
 {
 
-class SurfaceSpace;
-
 /// The connected components of the functions of one level.
 struct Components
 {
   std::vector<Index> ofFunction; // 0 .. count - 1
   Index count = 0;
+  /// Per component: something in the stiffness holds the functions, so that constants have energy.
+  /// Empty: none.
+  std::vector<char> isHeld;
 };
 
 /// The way a level is relaxed.
@@ -63,7 +64,7 @@ public:
 
   /// Returns the levels below the finest as a space of their own if the finest level does not
   /// contain them. Returns null if every level contains the next coarser one.
-  virtual const SurfaceSpace* NestedLevels() const { return nullptr; }
+  virtual const SpaceLevels* NestedLevels() const { return nullptr; }
 
   ///@{ The finest level.
 

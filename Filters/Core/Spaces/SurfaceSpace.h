@@ -22,6 +22,8 @@ public:
   /// World units per unit of length.
   virtual double UnitLength() const = 0;
 
+  const SurfaceSpace* NestedLevels() const override { return nullptr; }
+
   ///@{ The finest level. Fields are given on the mesh, in world units. Each method throws
   /// InvalidInput when their rows or columns do not fit.
 

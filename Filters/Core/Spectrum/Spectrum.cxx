@@ -320,7 +320,7 @@ double ShiftFor(
   {
     space.Distributed(0)->SumNumbers(&area, 1);
   }
-  return constants * LowestValue(area, space.Extent());
+  return std::max<Index>(1, constants) * LowestValue(area, space.Extent());
 }
 
 /// @param mass  of the finest level, over the unit
@@ -392,14 +392,14 @@ void Validate(const SpectrumOptions& options)
 }
 
 Spectrum ComputeNestedSpectrum(
-  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress)
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress)
 {
-  const SurfaceSpace* nested = space.NestedLevels();
+  const SpaceLevels* nested = space.NestedLevels();
   return nested ? ComputeOnNestedLevels(*nested, StartOptions(options), progress)
                 : ComputeOnNestedLevels(space, options, progress);
 }
 
-Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
+Spectrum FinishSpectrum(const SpaceLevels& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress)
 {
   return space.NestedLevels() ? ImproveSpectrum(space, std::move(nested), options, progress)
@@ -407,7 +407,7 @@ Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const Spectr
 }
 
 Spectrum ComputeSpectrum(
-  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress)
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress)
 {
   const double split = space.NestedLevels() ? 0.3 : 1.0;
   return FinishSpectrum(space, ComputeNestedSpectrum(space, options, progress.Part(0.0, split)),

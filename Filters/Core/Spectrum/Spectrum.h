@@ -2,7 +2,7 @@
 #ifndef GridFEM_Spectrum_h
 #define GridFEM_Spectrum_h
 
-#include "Spaces/SurfaceSpace.h"
+#include "Spaces/SpaceLevels.h"
 
 namespace gridfem
 {
@@ -55,7 +55,7 @@ struct Spectrum
 /// Throws InvalidInput for options out of range, and Aborted. If the finest level does not contain
 /// the next coarser one, the two steps below are taken.
 Spectrum ComputeSpectrum(
-  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress = {});
 
 /// The same where all levels are nested, with any functions on them. Collective; progress is
 /// aborted for all processes or none. Vectors have the rows of this process, and values are the
@@ -66,7 +66,7 @@ Spectrum ComputeOnNestedLevels(
 /// The first step: the spectrum of the nested levels. It is the result if all levels are nested.
 /// Otherwise it has guards beyond the wanted modes, to a loose tolerance.
 Spectrum ComputeNestedSpectrum(
-  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress = {});
 
 /// The second step. It does nothing if all levels are nested. Otherwise it prolongs the pairs to
 /// the finest level and improves them by block iterations with one cycle of the whole hierarchy.
@@ -74,7 +74,7 @@ Spectrum ComputeNestedSpectrum(
 /// values over the values of the nested levels. No space has eigenvalues below the eigenvalues of
 /// the surface, so the sum is the error of the worse of the two.
 /// @param nested  may have fewer modes than asked for, at the price of more iterations
-Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
+Spectrum FinishSpectrum(const SpaceLevels& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress = {});
 
 /// Bytes of the computation beyond the space, for this number of functions on the finest level, in

@@ -165,7 +165,7 @@ SpectrumOptions StartOptions(SpectrumOptions options)
   return options;
 }
 
-Spectrum ImproveSpectrum(const SurfaceSpace& space, Spectrum start, const SpectrumOptions& options,
+Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const SpectrumOptions& options,
   const Progress& progress)
 {
   const int threads = options.multigrid.threads;

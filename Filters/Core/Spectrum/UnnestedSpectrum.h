@@ -16,7 +16,7 @@ SpectrumOptions StartOptions(SpectrumOptions options);
 /// matrices. Constants of the components are exact. Same bits for any number of threads. Throws
 /// Aborted.
 /// @param start  of the nested levels, with StartOptions
-Spectrum ImproveSpectrum(const SurfaceSpace& space, Spectrum start, const SpectrumOptions& options,
+Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const SpectrumOptions& options,
   const Progress& progress = {});
 
 } // namespace gridfem
