@@ -1,5 +1,7 @@
 """Converts meshes of other libraries, and checks arrays."""
 
+import re
+
 import numpy
 
 
@@ -100,8 +102,9 @@ def chosen(properties):
 def require_range(name, value, least, most):
     """Raises Error for a number outside of [least, most]. NaN passes: the solver refuses it."""
     if value < least or value > most:
-        bounds = f"{least:g} or more" if most > 1e9 else f"{least:g} to {most:g}"
-        raise Error(f"{name} = {value!r}: must be {bounds}")
+        label = re.sub("(?<=[a-z])(?=[A-Z])", " ", name)
+        bounds = f"{least:g} or more" if most > 1e9 else f"from {least:g} to {most:g}"
+        raise Error(f"{label} is {value:g}; it must be {bounds}.")
 
 
 def colors_like(colors, given):

@@ -5,7 +5,7 @@ import warnings
 
 import numpy
 
-from ._inputs import Error, checked, colors_like, placed, require_range, result_like
+from ._inputs import Error, checked, colors_like, placed, result_like
 
 
 def _levels():
@@ -59,9 +59,6 @@ def solve(name, points, cells, arrays, properties, sources=()):
     given = {array: placed(array, values, points, cells)
              for array, values in arrays.items() if values is not None}
     numbers = {key: _number(key, value) for key, value in properties.items()}
-    ranges = _core.properties(name)
-    for key in numbers.keys() & ranges.keys():
-        require_range(key, properties[key], *ranges[key][1:])
     try:
         results, messages = _core.solve(
             name, points, cells,
@@ -69,7 +66,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
             numbers,
             [int(source) for source in sources])
     except MemoryError:
-        depth = properties.get("Depth", ranges["Depth"][0])
+        depth = properties.get("Depth", _core.properties(name)["Depth"][0])
         raise Error(f"Out of memory at Depth {depth:g}: choose a smaller Depth.") from None
     except ValueError as error:
         raise Error(str(error)) from None

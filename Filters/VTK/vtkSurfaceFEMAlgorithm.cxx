@@ -51,6 +51,16 @@ void PassOn(vtkInformationVector* input, vtkInformationVector* outputs)
   vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(input));
 }
 
+/// Notes in the field data how many triangles count with another one. Collective.
+void NoteCopies(const gridfem::InputSurface& surface, vtkPolyData* output)
+{
+  const gridfem::Id copied = surface.CopiedTriangles();
+  if (copied > 0)
+  {
+    gridfem::AddFieldInt(output, "CopiedTriangles", static_cast<int>(copied));
+  }
+}
+
 } // namespace
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
@@ -289,6 +299,7 @@ void vtkSurfaceFEMAlgorithm::ComputeInside(
   this->Compute(inside, outputs);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   this->Inside->PutBack(output);
+  NoteCopies(this->State->Surface(), output);
   gridfem::NameResults(vtkPolyData::GetData(inputs[0]), this->ResultPrefix, output);
 }
 

@@ -1,4 +1,5 @@
 """Tests that the XML agrees with the classes: defaults, ranges, and a text for everything."""
+import re
 import unittest
 
 import gridfem.vtkGridFEMFilters as filters  # before the plugin, which makes objects of its classes
@@ -161,6 +162,12 @@ class TestDefaults(unittest.TestCase):
                     getattr(instance, "Set" + key)(domain.GetEntryValue(entry))
                     self.assertEqual(
                         getattr(instance, "Get" + key)(), domain.GetEntryValue(entry))
+
+    def test_labels_are_names_with_spaces(self):
+        """Messages make labels of names in this way (LabelOf in Filters/Core/Solvers)."""
+        for name, _, key, prop in self.properties():
+            with self.subTest(proxy=name, property=key):
+                self.assertEqual(prop.GetXMLLabel(), re.sub("(?<=[a-z])(?=[A-Z])", " ", key))
 
     def test_everything_is_documented(self):
         for name, _, key, prop in self.properties():

@@ -304,11 +304,11 @@ class Numpy(unittest.TestCase):
 
     def test_values_out_of_range_raise(self):
         points, triangles = self.mesh
-        with self.assertRaisesRegex(gridfem.Error, "NumberOfModes = 0: must be 1 to 100000"):
+        with self.assertRaisesRegex(gridfem.Error, "Number Of Modes is 0; it must be from 1 to 100000"):
             gridfem.spectrum(points, triangles, 0)
-        with self.assertRaisesRegex(gridfem.Error, "Depth = 15: must be 0 to 14"):
+        with self.assertRaisesRegex(gridfem.Error, "Depth is 15; it must be from 0 to 14"):
             gridfem.poisson(points, triangles, Depth=15)
-        with self.assertRaisesRegex(gridfem.Error, "Smoothness = 2: must be 0 to 1"):
+        with self.assertRaisesRegex(gridfem.Error, "Smoothness is 2; it must be from 0 to 1"):
             gridfem.interpolate(points, triangles, [0], [1.0], Smoothness=2)
 
     def test_a_part_is_its_cells(self):

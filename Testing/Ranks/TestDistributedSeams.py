@@ -1,5 +1,6 @@
-"""Tests surfaces whose borders coincide but for rounding, or have hanging nodes, in pieces. All ranks
-together have the modes of one rank. Rank 0 gathers a surface with hanging nodes."""
+"""Tests surfaces whose borders coincide but for rounding, or have hanging nodes, or faces that are there
+twice, in pieces. All ranks together have the modes of one rank. Rank 0 gathers a surface with hanging
+nodes."""
 import unittest
 
 import numpy
@@ -76,6 +77,17 @@ class Seams(unittest.TestCase):
             whole = ranks.alone(lambda mesh=mesh: triangles(ranks.whole(mesh)))
             found = ranks.total(triangles(ranks.piece(mesh, kind)))
             ranks.check(self, [] if found == whole else [f"{found} triangles instead of {whole}"])
+
+    def test_faces_that_are_there_twice_are_counted(self):
+        """Each face follows its copy, so that a piece has both."""
+        points, cells = tube()
+        twice = points, numpy.repeat(cells, 2, axis=0)
+        for kind in ("contiguous", "one rank is empty"):
+            with self.subTest(kind=kind):
+                self.same_as_alone(twice, kind, True, [0, 1, 1, (numpy.pi / 3) ** 2])
+                output = ranks.run(ranks.make("LaplaceSpectrum", 4), ranks.piece(twice, kind))[0]
+                found = output.GetFieldData().GetArray("CopiedTriangles").GetValue(0)
+                ranks.check(self, [] if found == len(cells) else [f"{found} of {len(cells)} copies"])
 
 
 if __name__ == "__main__":

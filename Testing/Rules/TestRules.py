@@ -168,6 +168,26 @@ class Text(Rule):
         self.assertNothing(paths, "The sources name no folder of somebody's machine.")
 
 
+def properties_of_panels():
+    """Names of several words."""
+    panels = [*(ROOT / "Plugin").glob("*.xml"), *(ROOT / "Plugin/Shared").glob("*.xml")]
+    return {name for p in panels for name in re.findall(r'Property name="(\w+)"', p.read_text())
+            if re.search("[a-z][A-Z]", name)}
+
+
+class Messages(Rule):
+    def test_messages_name_labels(self):
+        """A panel shows "Screening Weight" and never the name of the script, ScreeningWeight."""
+        names = properties_of_panels()
+        offences = []
+        for path in [p for folder in ("Core", "Parallel", "VTK") for p in sources("Filters/" + folder)]:
+            text = re.sub(r"//[^\n]*|/\*.*?\*/|#include[^\n]*|os << indent[^\n]*", " ", path.read_text(), flags=re.DOTALL)
+            for literal in re.findall(r'"((?:\\.|[^"\\\n])*)"', text):
+                offences += [f"{relative(path)}: {word}" for word in re.findall(r"\w+", literal)
+                             if word in names and word != literal]
+        self.assertNothing(offences, "Messages that name a property by its name in scripts:")
+
+
 class Format(Rule):
     def test_sources_are_formatted(self):
         program = shutil.which("clang-format-14") or shutil.which("clang-format")

@@ -129,7 +129,7 @@ TEST_P(ConstrainedPoisson, PointValuesOfWeightZeroMayBeAnything)
   AddPointArray(input, "all", 1, [](const Vec3&, int) { return 1.0; });
   filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
   filter->SetInputArrayToProcess(3, 0, 0, Points, "all");
-  this->ExpectRefused("where ValueWeightArray 'all' is not 0");
+  this->ExpectRefused("where Value Weight Array 'all' is not 0");
 }
 
 TEST_P(ConstrainedPoisson, WeightsOfOneChangeNothing)

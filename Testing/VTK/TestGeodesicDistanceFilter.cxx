@@ -171,10 +171,10 @@ TEST(GeodesicDistanceFilter, RefusesASmoothingThatMakesTheHeatOscillate)
 {
   auto filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
   filter->SetSmoothing(0.89);
-  ExpectRefused(filter, "Smoothing is 0.89; it must be 0.9 or more");
+  ExpectRefused(filter, "Smoothing is 0.89; it must be from 0.9 to 1000");
   filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
   filter->SetSmoothing(1e4);
-  ExpectRefused(filter, "1000 or less");
+  ExpectRefused(filter, "Smoothing is 10000; it must be from 0.9 to 1000");
 }
 
 TEST(GeodesicDistanceFilter, NamesTheNearestSource)

@@ -25,7 +25,7 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 struct HostileCase
 {
-  const char* name; // of the property
+  const char* name; // the label of the property
   vtkSmartPointer<vtkSurfaceFEMAlgorithm> (*make)(double value);
 };
 
@@ -46,11 +46,11 @@ const HostileCase Cases[] = {
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetAccuracy(value); }); } },
   { "Accuracy", [](double value)
     { return With<vtkHeatDiffusion>([=](auto* filter) { filter->SetAccuracy(value); }); } },
-  { "ScreeningWeight",
+  { "Screening Weight",
     [](double value) {
       return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetScreeningWeight(value); });
     } },
-  { "GradientScale", [](double value)
+  { "Gradient Scale", [](double value)
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetGradientScale(value); }); } },
   { "Accuracy", [](double value)
     { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetAccuracy(value); }); } },
@@ -62,7 +62,7 @@ const HostileCase Cases[] = {
     { return With<vtkGeodesicDistance>([=](auto* filter) { filter->SetSmoothing(value); }); } },
   { "Tolerance", [](double value)
     { return With<vtkGeodesicDistance>([=](auto* filter) { filter->SetTolerance(value); }); } },
-  { "DiffusionTime", [](double value)
+  { "Diffusion Time", [](double value)
     { return With<vtkHeatDiffusion>([=](auto* filter) { filter->SetDiffusionTime(value); }); } },
   { "FWHM",
     [](double value)
@@ -84,7 +84,7 @@ const HostileCase Cases[] = {
           filter->SetSigma(value);
         });
     } },
-  { "DiffusionTime",
+  { "Diffusion Time",
     [](double value)
     {
       return With<vtkSpectralSignatures>(
@@ -158,8 +158,8 @@ TEST_P(HostileProperties, WhatIsBelowTheLeastIsRefusedAndNotClamped)
   signatures->SetNumberOfModes(10);
   signatures->SetDiffusionTime(-0.1);
   const std::pair<vtkSurfaceFEMAlgorithm*, const char*> cases[] = { { poisson,
-                                                                      "ScreeningWeight is -1" },
-    { spectrum, "Mode is -2" }, { signatures, "DiffusionTime is -0.1" } };
+                                                                      "Screening Weight is -1" },
+    { spectrum, "Mode is -2" }, { signatures, "Diffusion Time is -0.1" } };
   for (const auto& [filter, message] : cases)
   {
     filter->SetDepth(3);

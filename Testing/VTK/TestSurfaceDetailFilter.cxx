@@ -521,12 +521,12 @@ TEST(SurfaceDetailOfVTK, RefusesWhatItCannotUse)
     EXPECT_NE(messages.errors[0].find(name), std::string::npos) << messages.errors[0];
     EXPECT_TRUE(IsEmptyData(filter->GetOutput())) << name;
   };
-  refuses("DetailScale", [](auto* filter) { filter->SetDetailScale(NaN); });
-  refuses("ScreeningWeight", [](auto* filter) { filter->SetScreeningWeight(-1.0); });
-  refuses("SmoothingScale", [](auto* filter) { filter->SetSmoothingScale(NaN); });
+  refuses("Detail Scale", [](auto* filter) { filter->SetDetailScale(NaN); });
+  refuses("Screening Weight", [](auto* filter) { filter->SetScreeningWeight(-1.0); });
+  refuses("Smoothing Scale", [](auto* filter) { filter->SetSmoothingScale(NaN); });
   refuses("Anisotropy", [](auto* filter) { filter->SetAnisotropy(NaN); });
-  refuses("OutsideScale", [](auto* filter) { filter->SetOutsideScale(NaN); });
-  refuses("TransitionWidth", [](auto* filter) { filter->SetTransitionWidth(-0.1); });
+  refuses("Outside Scale", [](auto* filter) { filter->SetOutsideScale(NaN); });
+  refuses("Transition Width", [](auto* filter) { filter->SetTransitionWidth(-0.1); });
   const auto setCustom = [](vtkSurfaceDetail* filter, vtkPiecewiseFunction* function)
   {
     filter->SetTransferFunction(vtkSurfaceDetail::Custom);

@@ -54,13 +54,15 @@ std::vector<char> CopiedTriangles(
   return found > 0 ? copies : std::vector<char>();
 }
 
-void DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads)
+Id DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads)
 {
   const std::vector<char> isCopy = CopiedTriangles(mesh, {}, threads);
+  const auto given = static_cast<Id>(mesh.triangles.size());
   if (!isCopy.empty())
   {
     KeepTriangles(mesh, sourceCell, [&](std::size_t triangle) { return !isCopy[triangle]; });
   }
+  return given - static_cast<Id>(mesh.triangles.size());
 }
 
 } // namespace gridfem

@@ -35,9 +35,9 @@ void KeepTriangles(TriangleMesh& mesh, std::vector<Id>& sourceCell, IsKept&& isK
 }
 
 /// Keeps the first of several triangles with the same corners, so that a face that is there twice
-/// counts once.
+/// counts once. Returns how many it drops.
 /// @param sourceCell  as in KeepTriangles
-void DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads = 0);
+Id DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads = 0);
 
 } // namespace gridfem
 

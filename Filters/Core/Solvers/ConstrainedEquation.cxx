@@ -84,7 +84,7 @@ void ConstrainedEquation::RequireResolvable(double weight) const
     throw InvalidInput("The largest weight of the values, " + Shown(largestWeight_) +
                        ", is too large beside the smallest, " + Shown(leastWeight_) +
                        ", or beside the gradients. The solver would lose the solution there. Use "
-                       "smaller weights, a smaller ScreeningWeight, or a ConstraintArray for "
+                       "smaller weights, a smaller Screening Weight, or a Constraint Array for "
                        "values that hold exactly.");
   }
 }

@@ -40,8 +40,8 @@ public:
       visit("OutsideScale", self.outsideScale, Finite());
       visit("TransitionWidth", self.transitionWidth, AtLeast(0.0));
       visit("ScreeningWeight", self.screeningWeight, AtLeast(0.0));
-      visit("TransferFunction", self.transferFunction, Clamped(0, 4));
-      visit("Anisotropy", self.anisotropy, Clamped(1e-3, 1e3));
+      visit("TransferFunction", self.transferFunction, Within(0, 4));
+      visit("Anisotropy", self.anisotropy, Within(1e-3, 1e3));
       visit("SmoothingScale", self.smoothingScale, AtLeast(0.0));
       visit("KeepVolume", self.keepVolume, AnyValue());
     }

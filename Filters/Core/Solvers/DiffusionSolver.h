@@ -48,11 +48,11 @@ public:
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
-      visit("Amount", self.amount, Clamped(0, 2));
+      visit("Amount", self.amount, Within(0, 2));
       visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
       visit("FWHM", self.fullWidth, AtLeast(0.0));
       visit("Sigma", self.sigma, AtLeast(0.0));
-      visit("NumberOfSteps", self.numberOfSteps, Clamped(1, 10000));
+      visit("NumberOfSteps", self.numberOfSteps, Within(1, 10000));
       visit("BoundaryValues", self.boundaryValues, AnyValue());
     }
   };

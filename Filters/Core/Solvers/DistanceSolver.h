@@ -33,7 +33,7 @@ public:
       visit("Smoothing", self.smoothing, Within(DistanceOptions::LeastSmoothing, 1000.0));
       visit("NearestSource", self.nearestSource, AnyValue());
       visit("Signed", self.isSigned, AnyValue());
-      visit("InsideLabel", self.insideLabel, Clamped(-Largest, Largest));
+      visit("InsideLabel", self.insideLabel, Within(-Largest, Largest));
     }
   };
 

@@ -27,8 +27,8 @@ public:
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
-      visit("NumberOfPoints", self.numberOfPoints, Clamped(1, 100000));
-      visit("FirstPointId", self.firstPointId, Clamped(-1, std::numeric_limits<int>::max()));
+      visit("NumberOfPoints", self.numberOfPoints, Within(1, 100000));
+      visit("FirstPointId", self.firstPointId, Within(-1, std::numeric_limits<int>::max()));
     }
   };
 

@@ -47,11 +47,11 @@ public:
     {
       visit(self.equation);
       visit("TimeStep", self.timeStep, Finite());
-      visit("NumberOfSteps", self.numberOfSteps, Clamped(1, 100000));
+      visit("NumberOfSteps", self.numberOfSteps, Within(1, 100000));
       visit("Conformalized", self.conformalized, AnyValue());
       visit("TrackMetric", self.trackMetric, AnyValue());
       visit("FixedBoundary", self.fixedBoundary, AnyValue());
-      visit("Rescale", self.rescale, Clamped(0, 3));
+      visit("Rescale", self.rescale, Within(0, 3));
     }
   };
 

@@ -33,10 +33,10 @@ public:
     {
       visit(self.equation);
       visit("Range", self.range, AtLeast(0.0));
-      visit("Smoothness", self.smoothness, Clamped(1, 3));
+      visit("Smoothness", self.smoothness, Within(1, 3));
       visit("StandardDeviation", self.standardDeviation, AtLeast(0.0));
-      visit("Seed", self.seed, Clamped(0, std::numeric_limits<int>::max()));
-      visit("NumberOfSamples", self.numberOfSamples, Clamped(1, 100000));
+      visit("Seed", self.seed, Within(0, std::numeric_limits<int>::max()));
+      visit("NumberOfSamples", self.numberOfSamples, Within(1, 100000));
       visit("Statistics", self.statistics, AnyValue());
     }
   };

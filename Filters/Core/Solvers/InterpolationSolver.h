@@ -23,7 +23,7 @@ public:
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
-      visit("Smoothness", self.smoothness, Clamped(0, 1));
+      visit("Smoothness", self.smoothness, Within(0, 1));
     }
   };
 

@@ -13,33 +13,27 @@
 namespace gridfem
 {
 
-/// The values that an option may have.
+/// The values that an option may have. Others are refused.
 struct Range
 {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool isClamped = true; // a value outside becomes the nearest inside; else it is refused
 };
-
-constexpr Range Clamped(double least, double most)
-{
-  return { least, most, true };
-}
 
 constexpr Range AtLeast(double least)
 {
-  return { least, std::numeric_limits<double>::infinity(), false };
+  return { least, std::numeric_limits<double>::infinity() };
 }
 
 constexpr Range Within(double least, double most)
 {
-  return { least, most, false };
+  return { least, most };
 }
 
 /// Any finite number.
 constexpr Range Finite()
 {
-  return { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), false };
+  return { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max() };
 }
 
 /// The range of a switch or of a list of ids: any value.
@@ -107,19 +101,15 @@ struct AddToKey
   void operator()(const EquationOptions& equation) const { key.Add(KeyOf(equation)); }
 };
 
-struct RequireInRange
+struct Require
 {
   template<class Value>
   void operator()(const char* name, const Value& value, const Range& range) const
   {
-    if constexpr (std::is_same_v<Value, double>)
+    if constexpr (!std::is_same_v<Value, bool> &&
+                  (std::is_arithmetic_v<Value> || std::is_enum_v<Value>))
     {
-      RequireNumber(name, value);
-      if (!range.isClamped)
-      {
-        RequireAtLeast(name, value, range.least);
-        RequireAtMost(name, value, range.most);
-      }
+      RequireInRange(name, static_cast<double>(value), range.least, range.most);
     }
   }
 
@@ -154,12 +144,12 @@ StageKey KeyOfOptions(const Options& options)
   return key;
 }
 
-/// Throws InvalidInput for a value that is NaN, or that is outside an unclamped range. The message
-/// names the option.
+/// Throws InvalidInput for a number that is NaN or out of range. The message has the label of the
+/// option.
 template<class Options>
 void RequireOptions(const Options& options)
 {
-  Options::ForEach(options, option_fields::RequireInRange{});
+  Options::ForEach(options, option_fields::Require{});
 }
 
 /// How many fields ForEach names.

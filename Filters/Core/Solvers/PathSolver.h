@@ -42,7 +42,7 @@ public:
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
     {
-      visit("PathType", self.pathType, Clamped(0, static_cast<double>(PathType::AllPairs)));
+      visit("PathType", self.pathType, Within(0, static_cast<double>(PathType::AllPairs)));
     }
   };
 

@@ -162,8 +162,8 @@ void RequireWeightedValues(
         throw InvalidInput("Array '" + input.values.name + "' has a NaN value " +
                            (input.values.IsOnPoints() ? "at point " + std::to_string(rows[k])
                                                       : std::string("on a cell")) +
-                           ", where ValueWeightArray '" + input.weights.name +
-                           "' is not 0. FillUnknown takes NaN for an unknown value.");
+                           ", where Value Weight Array '" + input.weights.name +
+                           "' is not 0. Fill Unknown takes NaN for an unknown value.");
       }
     }
   }

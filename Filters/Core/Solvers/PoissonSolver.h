@@ -39,7 +39,7 @@ public:
       visit("UseValueGradient", self.useValueGradient, AnyValue());
       visit("FillUnknown", self.fillUnknown, AnyValue());
       visit("BoundaryValues", self.boundaryValues, AnyValue());
-      visit("WantedError", self.wantedError, Clamped(0.0, 0.5));
+      visit("WantedError", self.wantedError, Within(0.0, 0.5));
     }
   };
 

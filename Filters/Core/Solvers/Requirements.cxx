@@ -5,6 +5,7 @@
 #include "Solvers/MemoryEstimate.h"
 #include "Spectrum/Spectrum.h"
 
+#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -14,6 +15,9 @@ namespace gridfem
 {
 namespace
 {
+
+/// Bounds of this size only say that a number fits its type.
+constexpr double Unbounded = 1e9;
 
 /// Bytes of everything that a filter makes on the grid.
 double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKind kind)
@@ -25,31 +29,51 @@ double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKin
 
 } // namespace
 
-void RequireNumber(const char* property, double value)
+std::string LabelOf(const std::string& property)
+{
+  std::string label;
+  for (std::size_t k = 0; k < property.size(); ++k)
+  {
+    const bool beginsWord = k > 0 && std::isupper(property[k]) && std::islower(property[k - 1]);
+    label += (beginsWord ? " " : "") + property.substr(k, 1);
+  }
+  return label;
+}
+
+void RequireInRange(const std::string& property, double value, double least, double most)
+{
+  if (std::isfinite(value) && value >= least && value <= most)
+  {
+    return;
+  }
+  RequireNumber(property, value);
+  std::ostringstream message;
+  message << LabelOf(property) << " is " << value << "; it must be ";
+  if (least <= -Unbounded && most >= Unbounded)
+  {
+    message << "finite";
+  }
+  else if (most >= Unbounded)
+  {
+    message << least << " or more";
+  }
+  else
+  {
+    message << "from " << least << " to " << most;
+  }
+  throw InvalidInput(message.str() + ".");
+}
+
+void RequireAtLeast(const std::string& property, double value, double least)
+{
+  RequireInRange(property, value, least, std::numeric_limits<double>::max());
+}
+
+void RequireNumber(const std::string& property, double value)
 {
   if (std::isnan(value))
   {
-    throw InvalidInput(std::string(property) + " is not a number.");
-  }
-}
-
-void RequireAtLeast(const char* property, double value, double least)
-{
-  if (!std::isfinite(value) || value < least)
-  {
-    std::ostringstream message;
-    message << property << " is " << value << "; it must be " << least << " or more.";
-    throw InvalidInput(message.str());
-  }
-}
-
-void RequireAtMost(const char* property, double value, double most)
-{
-  if (value > most)
-  {
-    std::ostringstream message;
-    message << property << " is " << value << "; it must be " << most << " or less.";
-    throw InvalidInput(message.str());
+    throw InvalidInput(LabelOf(property) + " is not a number.");
   }
 }
 

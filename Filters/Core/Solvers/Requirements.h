@@ -11,14 +11,19 @@
 namespace gridfem
 {
 
-/// Throws InvalidInput, naming the property, if its value is NaN. NaN passes every clamp.
-void RequireNumber(const char* property, double value);
+/// Returns the label of a property in the panel: its name, with spaces between the words.
+std::string LabelOf(const std::string& property);
 
-/// Throws InvalidInput, naming the property, if its value is not finite or below `least`.
-void RequireAtLeast(const char* property, double value, double least);
+/// Throws InvalidInput if a number is NaN, infinite or outside of [least, most]. The message has
+/// the label of the property, the value and the range.
+void RequireInRange(const std::string& property, double value, double least, double most);
 
-/// Throws InvalidInput, naming the property, if its value is above `most`.
-void RequireAtMost(const char* property, double value, double most);
+/// The same for a number without a largest value.
+void RequireAtLeast(const std::string& property, double value, double least);
+
+/// Throws InvalidInput, with the label of the property, if its value is NaN. NaN passes every
+/// clamp.
+void RequireNumber(const std::string& property, double value);
 
 /// Throws InvalidInput, naming the subject, for functions of degree two.
 /// @param subject  plural, such as "Distances"

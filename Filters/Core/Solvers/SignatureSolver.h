@@ -52,12 +52,12 @@ public:
     {
       constexpr int Largest = std::numeric_limits<int>::max();
       visit(self.equation);
-      visit("NumberOfModes", self.numberOfModes, Clamped(2, 100000));
-      visit("NumberOfScales", self.numberOfScales, Clamped(1, 1000));
+      visit("NumberOfModes", self.numberOfModes, Within(2, 100000));
+      visit("NumberOfScales", self.numberOfScales, Within(1, 1000));
       visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
-      visit("FilterType", self.filterType, Clamped(0, 3));
-      visit("FirstMode", self.firstMode, Clamped(0, Largest));
-      visit("LastMode", self.lastMode, Clamped(0, Largest));
+      visit("FilterType", self.filterType, Within(0, 3));
+      visit("FirstMode", self.firstMode, Within(0, Largest));
+      visit("LastMode", self.lastMode, Within(0, Largest));
     }
   };
 

@@ -185,7 +185,8 @@ std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const 
   if (spectrum.truncated)
   {
     sentences.push_back("Only " + std::to_string(modes) + " of the " + std::to_string(wanted) +
-                        " modes exist " + where + ".");
+                        (spectrum.converged ? " modes exist " : " modes were found ") + where +
+                        ".");
   }
   const auto constants = static_cast<std::size_t>(spectrum.numberOfConstants);
   if (modes > 1 && modes <= constants && !spectrum.truncated)
@@ -203,7 +204,10 @@ std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const 
          << " iterations: " << spectrum.numberOfConverged << " of " << modes
          << " modes reached the Tolerance. The largest residual is "
          << (residuals.empty() ? 0.0 : *std::max_element(residuals.begin(), residuals.end()))
-         << ". The result is kept.";
+         << ". The result is kept."
+         << (spectrum.truncated ? " Set Normal Stabilization to 1e-6 if parts of the surface are "
+                                  "nearly flat, or far smaller than the cells."
+                                : "");
     sentences.push_back(text.str());
   }
   return sentences;

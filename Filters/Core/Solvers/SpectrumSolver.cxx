@@ -28,7 +28,7 @@ void RequireMemoryOfModes(const Surface& surface, int modes)
   MemoryNeed need = NeedOfModes(NumberOfUnknowns(surface.Space()), modes, surface.Threads());
   if (surface.IsShared())
   {
-    need.subject = "NumberOfModes " + std::to_string(modes); // functions differ
+    need.subject = "Number Of Modes " + std::to_string(modes); // functions differ
   }
   surface.Require(need);
 }

@@ -34,8 +34,8 @@ public:
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
-      visit("NumberOfModes", self.numberOfModes, Clamped(1, 100000));
-      visit("Accuracy", self.accuracy, Clamped(0.0, 0.5));
+      visit("NumberOfModes", self.numberOfModes, Within(1, 100000));
+      visit("Accuracy", self.accuracy, Within(0.0, 0.5));
       visit("ZeroBoundaryValues", self.zeroBoundaryValues, AnyValue());
     }
   };

@@ -33,9 +33,9 @@ public:
     {
       constexpr double Largest = std::numeric_limits<int>::max();
       visit(self.equation);
-      visit("ReferenceLabel", self.referenceLabel, Clamped(-Largest, Largest));
+      visit("ReferenceLabel", self.referenceLabel, Within(-Largest, Largest));
       visit("KeepDetails", self.keepDetails, AnyValue());
-      visit("BlendWidth", self.blendWidth, Clamped(0.0, 1.0));
+      visit("BlendWidth", self.blendWidth, Within(0.0, 1.0));
     }
   };
 

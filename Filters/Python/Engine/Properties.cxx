@@ -3,7 +3,6 @@
 #include "Base/Errors.h"
 #include "Solvers/Requirements.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,8 +23,8 @@ double Properties::Take(const std::string& name, const Property& property)
   {
     return property.standard;
   }
-  RequireNumber(name.c_str(), given->second);
-  return std::clamp(given->second, property.least, property.most);
+  RequireInRange(name, given->second, property.least, property.most);
+  return given->second;
 }
 
 double Properties::Number(const std::string& name, double standard, double least, double most)
@@ -38,7 +37,7 @@ int Properties::Integer(const std::string& name, int standard, int least, int mo
   const double value = this->Take(name, { double(standard), double(least), double(most) });
   if (value != std::floor(value))
   {
-    throw InvalidInput(name + " must be an integer.");
+    throw InvalidInput(LabelOf(name) + " must be an integer.");
   }
   return static_cast<int>(value);
 }
@@ -46,23 +45,6 @@ int Properties::Integer(const std::string& name, int standard, int least, int mo
 bool Properties::Switch(const std::string& name, bool standard)
 {
   return this->Take(name, { standard ? 1.0 : 0.0, -Infinity, Infinity }) != 0.0;
-}
-
-double Properties::NumberFrom(const std::string& name, double standard, double least)
-{
-  const double value = this->Take(name, { standard, -Infinity, Infinity });
-  RequireAtLeast(name.c_str(), value, least);
-  return value;
-}
-
-double Properties::FiniteNumber(const std::string& name, double standard)
-{
-  const double value = this->Take(name, { standard, -Infinity, Infinity });
-  if (!std::isfinite(value))
-  {
-    throw InvalidInput(name + " must be a finite number.");
-  }
-  return value;
 }
 
 void Properties::RequireNoOther() const

@@ -27,16 +27,11 @@ public:
   {
   }
 
-  ///@{ Return the given value, else the default. Throw InvalidInput if it is no number, or no
+  ///@{ Return the given value, else the default. Throw InvalidInput if it is out of range, or no
   /// integer where one is needed.
   double Number(const std::string& name, double standard, double least, double most);
   int Integer(const std::string& name, int standard, int least, int most);
   bool Switch(const std::string& name, bool standard);
-  ///@}
-
-  ///@{ Do the same, but throw InvalidInput for a value that is out of range.
-  double NumberFrom(const std::string& name, double standard, double least);
-  double FiniteNumber(const std::string& name, double standard);
   ///@}
 
   /// Throws InvalidInput naming the first property that the problem has not asked for.

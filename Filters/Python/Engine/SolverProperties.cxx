@@ -7,17 +7,6 @@
 namespace gridfem
 {
 
-double TakeProperty::Number(const char* name, double standard, const Range& range) const
-{
-  if (range.isClamped)
-  {
-    return properties.Number(name, standard, range.least, range.most);
-  }
-  return range.least == std::numeric_limits<double>::lowest()
-           ? properties.FiniteNumber(name, standard)
-           : properties.NumberFrom(name, standard, range.least);
-}
-
 void TakeProperty::operator()(EquationOptions& equation) const
 {
   const bool hasAccuracy = equation.solve.tolerance == 0.0;

@@ -30,15 +30,12 @@ struct TakeProperty
     }
     else if constexpr (std::is_same_v<Value, double>)
     {
-      value = this->Number(name, value, range);
+      value = properties.Number(name, value, range.least, range.most);
     }
   }
 
   /// A default tolerance of 0 means that the wanted accuracy decides.
   void operator()(EquationOptions& equation) const;
-
-private:
-  double Number(const char* name, double standard, const Range& range) const;
 };
 
 /// Replaces the defaults of a solver's options by the properties that are given. Throws

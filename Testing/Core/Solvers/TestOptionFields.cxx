@@ -78,6 +78,93 @@ TYPED_TEST(OptionFields, DefaultsAreAllowed)
   EXPECT_NO_THROW(RequireOptions(TypeParam()));
 }
 
+/// Gives each number a value outside of its range.
+struct Exceed
+{
+  int field;
+  std::string& name;
+
+  template<class Value>
+  void operator()(const char* ofField, Value& value, const Range& range)
+  {
+    constexpr bool isNumber =
+      !std::is_same_v<Value, bool> && (std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
+    if constexpr (isNumber)
+    {
+      if (field-- == 0)
+      {
+        name = ofField;
+        const bool hasMost = range.most < 1e9;
+        value = static_cast<Value>(hasMost ? range.most + 1.0 : range.least - 1.0);
+        if constexpr (std::is_same_v<Value, double>)
+        {
+          value = hasMost || range.least > -1e9 ? value : std::numeric_limits<double>::infinity();
+        }
+      }
+    }
+  }
+
+  void operator()(EquationOptions& /*equation*/) {}
+};
+
+TYPED_TEST(OptionFields, EachNumberOutOfRangeIsRefusedByItsLabel)
+{
+  for (int field = 0;; ++field)
+  {
+    std::string name;
+    TypeParam options;
+    TypeParam::ForEach(options, Exceed{ field, name });
+    if (name.empty())
+    {
+      break;
+    }
+    if (name == "InsideLabel" || name == "ReferenceLabel")
+    {
+      continue; // any integer
+    }
+    try
+    {
+      RequireOptions(options);
+      ADD_FAILURE() << name;
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_EQ(std::string(error.what()).find(LabelOf(name) + " is "), 0u) << error.what();
+    }
+  }
+}
+
+TEST(LabelOf, PutsSpacesBetweenWords)
+{
+  EXPECT_EQ(LabelOf("ScreeningWeight"), "Screening Weight");
+  EXPECT_EQ(LabelOf("NumberOfModes"), "Number Of Modes");
+  EXPECT_EQ(LabelOf("Depth"), "Depth");
+  EXPECT_EQ(LabelOf("Time Step"), "Time Step");
+}
+
+TEST(RequireInRange, TellsValueAndRange)
+{
+  const auto message = [](double value, double least, double most)
+  {
+    try
+    {
+      RequireInRange("NumberOfSteps", value, least, most);
+    }
+    catch (const InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(message(1.0, 1.0, 4.0), "");
+  EXPECT_EQ(message(4.0, 1.0, 4.0), "");
+  EXPECT_EQ(message(0.5, 1.0, 4.0), "Number Of Steps is 0.5; it must be from 1 to 4.");
+  EXPECT_EQ(message(-2.0, 0.0, Infinity), "Number Of Steps is -2; it must be 0 or more.");
+  EXPECT_EQ(message(Infinity, -Infinity, Infinity), "Number Of Steps is inf; it must be finite.");
+  EXPECT_EQ(message(std::nan(""), 0.0, 1.0), "Number Of Steps is not a number.");
+}
+
 TEST(OptionFields, RefuseNumbersOutOfRange)
 {
   PoissonSolver::Options options;

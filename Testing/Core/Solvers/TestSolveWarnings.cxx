@@ -84,6 +84,11 @@ TEST(SolveWarnings, OfSpectraNameWhatIsMissing)
   const std::string text = TextOf(open, 3);
   EXPECT_TRUE(Has(text, "after 50 iterations: 2 of 3 modes")) << text;
   EXPECT_TRUE(Has(text, "largest residual is 0.5")) << text;
+  EXPECT_FALSE(Has(text, "Normal Stabilization")) << text;
+
+  open.truncated = true; // others may exist
+  EXPECT_TRUE(Has(TextOf(open, 9), "Only 3 of the 9 modes were found")) << TextOf(open, 9);
+  EXPECT_TRUE(Has(TextOf(open, 9), "Normal Stabilization")) << TextOf(open, 9);
 }
 
 TEST(SolveWarnings, OfConstraintsNameFreeComponentsAndVisibleMisfits)

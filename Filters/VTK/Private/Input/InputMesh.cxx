@@ -260,7 +260,7 @@ InputMesh ReadInputMesh(
     throw InvalidInput("All polygons lie outside the Domain Array, or are hidden or duplicates "
                        "according to the array vtkGhostType.");
   }
-  DropCopies(*triangles, mesh.sourceCell, threads);
+  mesh.copied = DropCopies(*triangles, mesh.sourceCell, threads);
   if (weldCoincidentPoints)
   {
     Join(mesh, *triangles, threads);
@@ -295,7 +295,7 @@ InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
       [](int mark) { return (mark & vtkDataSetAttributes::DUPLICATECELL) != 0; });
     KeepCells(ghosts, mesh, *triangles, IsShown);
   }
-  DropCopies(*triangles, mesh.sourceCell, threads);
+  mesh.copied = DropCopies(*triangles, mesh.sourceCell, threads);
   copies.triangles = std::move(triangleCopies);
   mesh.triangles = std::move(triangles);
   return mesh;

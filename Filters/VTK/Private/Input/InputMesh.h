@@ -22,6 +22,7 @@ struct InputMesh
   std::vector<Id> sourceCell; // per triangle, ascending: the cell of the vtkPolyData it comes from
   bool isWelded = false;      // seams were joined (JoinSeams)
   std::vector<MovedPoint> moved; // points that joining seams moved, ascending
+  Id copied = 0;                 // triangles left out, because others have the same corners
 };
 
 /// Decomposes polygons of any size, concave ones too, and strips. Leaves out vertices, lines,

@@ -352,6 +352,13 @@ MultiVector PieceSurface::MeansOnCells(const MultiVector& onTriangles, Id cells)
          gridfem::MeansOnCells(copies_, ofOriginals, cells);
 }
 
+Id PieceSurface::CopiedTriangles() const
+{
+  auto copied = static_cast<double>(triangles_.copied);
+  this->Ranks().Sum(&copied, 1);
+  return static_cast<Id>(copied);
+}
+
 int PieceSurface::UsedDepth() const
 {
   return this->Functions() ? this->GetGrid().depth : AutomaticDepth;

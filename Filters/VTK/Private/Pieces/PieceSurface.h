@@ -36,6 +36,7 @@ public:
   MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const override;
   InputMesh WithCopies(const InputMesh& mesh) const override;
   void Agree(std::vector<double>& numbers) const override { this->AgreeOn(numbers); }
+  Id CopiedTriangles() const override;
   int UsedDepth() const override;
   ClippedSurface& Clip() override;
   void Run(const Progress& progress, const std::function<void(const Progress&)>& body) override;

@@ -97,6 +97,9 @@ public:
   /// Replaces the numbers by those of the first rank that has any.
   virtual void Agree(std::vector<double>& /*numbers*/) const {}
 
+  /// How many triangles of the surface were left out, because others have the same corners.
+  virtual Id CopiedTriangles() const { return triangles_.copied; }
+
   /// The depth of the grid; AutomaticDepth without functions.
   virtual int UsedDepth() const = 0;
 

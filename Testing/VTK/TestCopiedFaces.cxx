@@ -1,0 +1,43 @@
+// Tests that faces which are there twice count once, and that the output tells how many there were.
+
+#include "AllFilters.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+class CopiedFaces : public ::testing::TestWithParam<FilterCase>
+{
+protected:
+  vtkSmartPointer<vtkPolyData> Run(const TriangleMesh& mesh)
+  {
+    auto input = ToPolyData(mesh);
+    AddArraysOfAllFilters(input);
+    auto filter = this->GetParam().make();
+    filter->SetDepth(4);
+    filter->SetInputDataObject(input);
+    filter->Update();
+    return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  }
+};
+
+TEST_P(CopiedFaces, AreCountedInTheFieldData)
+{
+  const TriangleMesh sphere = GeodesicSphere(3);
+  EXPECT_FALSE(this->Run(sphere)->GetFieldData()->HasArray("CopiedTriangles"));
+  TriangleMesh doubled = sphere;
+  for (const std::size_t face : { 0, 7, 7, 30, 71 })
+  {
+    const auto& [a, b, c] = sphere.triangles[face];
+    doubled.triangles.push_back({ b, a, c });
+  }
+  EXPECT_EQ(FieldValue(this->Run(doubled), "CopiedTriangles"), 5.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFilters, CopiedFaces, AllFilters(), NameOf);
+
+} // namespace
