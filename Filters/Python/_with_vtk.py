@@ -93,7 +93,7 @@ def triangulate(corners):
     for k in range(len(corners)):
         polygon.GetPointIds().SetId(k, k)
     triangles = vtkIdList()
-    polygon.Triangulate(triangles)
+    polygon.Triangulate(0, triangles, vtkPoints())  # VTK 9.6 has no other
     return numpy.array([triangles.GetId(k) for k in range(triangles.GetNumberOfIds())],
                        dtype=numpy.int64).reshape(-1, 3)
 
