@@ -80,7 +80,7 @@ def placed(name, values, points, cells):
 # The values of choices by name, in the order of their numbers.
 CHOICES = {
     "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
-    "FunctionSpace": ("Grid", "HatFunctions"),
+    "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),
     "ParameterUnits": ("World", "UnitArea", "UnitCube"),
     "Rescale": ("Automatic", "NoRescale", "ConstantArea", "ConstantVolume"),

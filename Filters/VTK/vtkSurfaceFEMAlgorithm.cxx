@@ -168,8 +168,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.space.connectivityAware = this->ConnectivityAware;
   options.space.weldCoincidentPoints = this->WeldCoincidentPoints;
   options.space.threads = this->NumberOfThreads;
-  options.choice.kind =
-    this->FunctionSpace == HatFunctions ? gridfem::FunctionKind::Hats : gridfem::FunctionKind::Grid;
+  options.choice.kind = static_cast<gridfem::FunctionKind>(this->FunctionSpace);
   options.choice.quadratureDegree = this->QuadratureDegree;
   options.choice.normalStabilization = this->NormalStabilization;
   options.multigrid.threads = this->NumberOfThreads;

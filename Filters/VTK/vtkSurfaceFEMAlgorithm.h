@@ -130,7 +130,8 @@ public:
   enum FunctionSpaceType
   {
     Grid = 0,
-    HatFunctions = 1
+    HatFunctions = 1,
+    SmoothGrid = 2
   };
   ///@{
   /**
@@ -145,8 +146,13 @@ public:
    * up to four functions for each point, because they take their estimated errors from the grid.
    * The grid keeps its depth if its own solution counts: for distances, for details of stitched
    * colors, or for a wanted accuracy. The field array `UsedDepth` gives the depth.
+   *
+   * SmoothGrid takes quadratic B-splines of the grid, whose gradients are continuous. Smooth
+   * solutions reach the same error at a Depth one to two steps smaller. NormalStabilization is at
+   * least 1e-3 and QuadratureDegree at least 6. Several MPI ranks gather the surface on rank 0.
+   * Distances, held values and stitched colors refuse these functions.
    */
-  vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
+  vtkSetClampMacro(FunctionSpace, int, Grid, SmoothGrid);
   vtkGetMacro(FunctionSpace, int);
   ///@}
 

@@ -295,7 +295,7 @@ class Numpy(unittest.TestCase):
 
     def test_choices_have_names(self):
         points, triangles = self.mesh
-        for name, number in (("Grid", 0), ("HatFunctions", 1)):
+        for name, number in (("Grid", 0), ("HatFunctions", 1), ("SmoothGrid", 2)):
             numpy.testing.assert_array_equal(
                 gridfem.poisson(points, triangles, FunctionSpace=name, **OPTIONS),
                 gridfem.poisson(points, triangles, FunctionSpace=number, **OPTIONS))

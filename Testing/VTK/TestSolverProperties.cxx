@@ -172,8 +172,8 @@ TEST(SolverProperty, ValuesOutOfRangeAreClamped)
   EXPECT_EQ(filter->GetWantedError(), 0.0);
   filter->SetWantedError(1.0);
   EXPECT_EQ(filter->GetWantedError(), 0.5);
-  filter->SetFunctionSpace(2);
-  EXPECT_EQ(filter->GetFunctionSpace(), int(Poisson::HatFunctions));
+  filter->SetFunctionSpace(3);
+  EXPECT_EQ(filter->GetFunctionSpace(), int(Poisson::SmoothGrid));
 }
 
 } // namespace

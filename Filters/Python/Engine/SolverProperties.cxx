@@ -31,7 +31,7 @@ void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options)
     properties.Switch("WeldCoincidentPoints", options.space.weldCoincidentPoints);
   options.space.threads = properties.Integer("NumberOfThreads", options.space.threads, 0, 1024);
   options.choice.kind = static_cast<FunctionKind>(
-    properties.Integer("FunctionSpace", static_cast<int>(options.choice.kind), 0, 1));
+    properties.Integer("FunctionSpace", static_cast<int>(options.choice.kind), 0, 2));
   options.choice.quadratureDegree =
     properties.Integer("QuadratureDegree", options.choice.quadratureDegree, -Largest, Largest);
   TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree before the long work

@@ -59,6 +59,8 @@ bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
   return filter->GetBlocksAsOne() ||
          // A point where pieces meet may be inside the domain on one rank alone.
          IsArrayChosen(filter, DomainIndex) ||
+         // Ranks together know no functions of degree two.
+         filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::SmoothGrid ||
          // Without welding, pieces would be apart along their borders.
          !filter->GetWeldCoincidentPoints() || (isGiven && !WeldsCoincidentPoints(basis)) ||
          (isGiven && basis == piece &&
