@@ -87,6 +87,7 @@ const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
 {
   RequireSampling(options);
   surface.Prepare(job.progress.Part(0.0, 0.3));
+  RequireFirstDegree(surface.UsedOptions().choice.kind, "Random fields");
   this->UpdateField(surface, options, { surface.Threads(), job.progress.Part(0.3, 0.4) });
   StageKey key = KeyOfOptions(options);
   key.Add(surface.GetStages().Version(HierarchyStage));

@@ -31,10 +31,10 @@ bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSiz
          LargestComponent(space.levels[level]) <= coarsestSize;
 }
 
-using RowSums = std::array<double, FunctionsPerPatch>;
+using SumsOfRows = std::array<double, FunctionsPerPatch>;
 
 /// Computes the row sums of `count` matrices; `count` is at most LaneCount.
-void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
+void SumRows(const ElementMatrix* matrices, int count, SumsOfRows* sums)
 {
   MatrixPointers entries;
   std::array<double*, LaneCount> result{};
@@ -61,7 +61,7 @@ void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
 std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
-  Array<RowSums> ofPatch(mass.size());
+  Array<SumsOfRows> ofPatch(mass.size());
   const auto patches = static_cast<Id>(mass.size());
   ForEachLaneGroup(patches, threads,
     [&](Id begin, int count)

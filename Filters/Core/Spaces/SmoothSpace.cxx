@@ -86,7 +86,7 @@ Components SmoothSpace::ComponentsOf(std::size_t level, const Job& job) const
 {
   if (level == 0)
   {
-    return { operators_->component, operators_->numberOfComponents };
+    return { operators_->component, operators_->numberOfComponents, {} };
   }
   Components components;
   components.ofFunction = FunctionComponents(operators_->levels.at(level), job.threads);

@@ -3,6 +3,7 @@
 #include "Distance/GeodesicDistance.h"
 #include "Largest.h"
 #include "Meshes.h"
+#include "Solvers/GaussianFieldSolver.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/PoissonSolver.h"
 #include "Solvers/SpectrumSolver.h"
@@ -100,4 +101,10 @@ TEST_F(SmoothSolvers, RefuseDistancesAndHeldValues)
   {
     EXPECT_NE(std::string(error.what()).find("Function Space"), std::string::npos);
   }
+}
+
+TEST_F(SmoothSolvers, RefuseRandomFields)
+{
+  EXPECT_THROW(
+    GaussianFieldSolver::Solve(mesh, GaussianFieldSolver::Options(), SmoothAt(3)), InvalidInput);
 }
