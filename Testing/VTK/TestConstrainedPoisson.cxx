@@ -194,8 +194,7 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
     messages.warnings.clear();
     const auto found = this->Solution();
     EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
-    // The range is 4.5. Edges between the points pull the functions to their chords.
-    EXPECT_LT(Difference(found, PointValues(data, "exact")), fineness == 8 ? 0.04 : 0.035);
+    EXPECT_LT(Difference(found, PointValues(data, "exact")), fineness == 8 ? 0.04 : 0.025);
   }
 }
 

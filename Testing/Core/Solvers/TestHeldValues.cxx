@@ -121,7 +121,7 @@ TEST(HeldValues, OfABoundaryGiveAnErrorThatFallsWithDepth)
     const auto mesh = std::make_shared<const TriangleMesh>(Disc(k == 0 ? 20 : 40));
     const double coarse = ErrorOnDisc(mesh, 5);
     const double fine = ErrorOnDisc(mesh, 6);
-    EXPECT_LT(coarse, 0.035);
+    EXPECT_LT(coarse, 0.025);
     EXPECT_LT(fine, Larger(Chords[k], coarse / 4.0));
     EXPECT_LT(ErrorOnDisc(mesh, 7), Chords[k]);
   }
