@@ -167,6 +167,27 @@ TEST(GeodesicDistanceFilter, WarnsWhenMostPointsHaveNoDistance)
   EXPECT_NE(messages.warnings[0].find("No source is chosen"), std::string::npos);
 }
 
+TEST(GeodesicDistanceFilter, HasNotConvergedWhereNoHeatArrives)
+{
+  // The heat reaches about 950 cells with the default Smoothing. The strip is 512 or 1024 long.
+  const auto strip = ToPolyData(FlatRectangle(200, 1, 1.0, 0.002));
+  for (const bool isTooLong : { false, true })
+  {
+    auto filter = MakeFilter(strip, isTooLong ? 10 : 9);
+    filter->AddSourcePointId(0);
+    const Messages messages(filter);
+    EXPECT_TRUE(AllFinite(DistancesOf(filter)));
+    EXPECT_EQ(FieldValue(filter->GetOutputDataObject(0), "Converged"), isTooLong ? 0.0 : 1.0);
+    const auto says = [&](const char* words)
+    {
+      return std::any_of(messages.warnings.begin(), messages.warnings.end(),
+        [words](const std::string& warning) { return warning.find(words) != std::string::npos; });
+    };
+    EXPECT_EQ(says("wrong far from the sources"), isTooLong);
+    EXPECT_EQ(messages.warnings.empty(), !isTooLong);
+  }
+}
+
 TEST(GeodesicDistanceFilter, RefusesASmoothingThatMakesTheHeatOscillate)
 {
   auto filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);

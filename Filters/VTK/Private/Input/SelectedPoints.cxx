@@ -1,5 +1,6 @@
 #include "Input/SelectedPoints.h"
 
+#include "Input/SelectionCheck.h"
 #include "Pieces/JoinedBlocks.h"
 #include "Pieces/Ranks.h"
 #include "Solvers/Surface.h"
@@ -14,7 +15,6 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
 #include "vtkExtractSelection.h"
 #include "vtkIdList.h"
@@ -61,8 +61,6 @@ protected:
 
 vtkStandardNewMacro(Extraction);
 
-constexpr bool HasQueries = VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython;
-
 constexpr const char* Insidedness = "vtkInsidedness"; // of vtkExtractSelection
 
 vtkSmartPointer<vtkCompositeDataIterator> LeavesOf(vtkCompositeDataSet* data)
@@ -100,62 +98,6 @@ vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
   return copy;
 }
 
-/// Returns whether the node selects points or cells: POINT or CELL.
-int KindOf(vtkSelectionNode* node)
-{
-  const int kind = node->GetFieldType();
-  if (kind != vtkSelectionNode::POINT && kind != vtkSelectionNode::CELL)
-  {
-    throw InvalidInput("The Selection must consist of points or of cells, but its kind is " +
-                       std::string(vtkSelectionNode::GetFieldTypeAsString(kind)) + ".");
-  }
-  vtkInformation* properties = node->GetProperties();
-  const bool takesCells = properties->Has(vtkSelectionNode::CONTAINING_CELLS()) &&
-                          properties->Get(vtkSelectionNode::CONTAINING_CELLS());
-  return takesCells ? static_cast<int>(vtkSelectionNode::CELL) : kind;
-}
-
-/// Refuses a selection on several ranks, because each evaluates only its own data.
-void RequireOneProcess(const std::string& what)
-{
-  if (Ranks::AreSeveral())
-  {
-    throw InvalidInput(what + " works on one MPI rank only. Convert it to an array with Extract "
-                              "Selection and Preserve Topology, and choose the array instead.");
-  }
-}
-
-/// Refuses selections that vtkExtractSelection cannot handle.
-void Validate(vtkSelection* selection)
-{
-  for (unsigned int k = 0; k < selection->GetNumberOfNodes(); ++k)
-  {
-    vtkSelectionNode* node = selection->GetNode(k);
-    if (KindOf(node) != KindOf(selection->GetNode(0)))
-    {
-      throw InvalidInput("The Selection has both points and cells. Choose one of them.");
-    }
-    const int content = node->GetContentType();
-    if (content == vtkSelectionNode::USER || (content == vtkSelectionNode::QUERY && !HasQueries))
-    {
-      throw InvalidInput("The Selection is of the kind " +
-                         std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
-                         ", which cannot be evaluated here.");
-    }
-    if (content == vtkSelectionNode::QUERY)
-    {
-      RequireOneProcess("A Selection by a query");
-    }
-    vtkAbstractArray* list = node->GetSelectionList();
-    constexpr vtkIdType FrustumNumbers = 8 * 4; // corners, homogeneous
-    if (content == vtkSelectionNode::FRUSTUM &&
-        !(vtkDoubleArray::SafeDownCast(list) && list->GetNumberOfValues() == FrustumNumbers))
-    {
-      throw InvalidInput("A Selection by a frustum needs the eight corners of the frustum.");
-    }
-  }
-}
-
 /// Returns the part of extracted data at the block's place in the whole. Null if it has none.
 vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
@@ -186,13 +128,28 @@ vtkDataArray* OriginalIds(
   return ids;
 }
 
+/// Returns which of `count` points or cells are inside.
+/// @param originalIds  their places in `inside`; null if these are the same
 std::vector<char> SelectedOf(vtkDataArray* inside, vtkDataArray* originalIds, vtkIdType count)
 {
+  const vtkIdType ids = originalIds ? originalIds->GetNumberOfTuples() : count;
+  if (ids < count)
+  {
+    throw InvalidInput("The array '" + std::string(originalIds->GetName()) + "' has " +
+                       std::to_string(ids) + " ids for " + std::to_string(count) +
+                       " points or cells.");
+  }
   std::vector<char> isSelected(count, 0);
   for (vtkIdType k = 0; k < count; ++k)
   {
-    const vtkIdType id = originalIds ? static_cast<vtkIdType>(originalIds->GetComponent(k, 0)) : k;
-    isSelected[k] = inside->GetComponent(id, 0) > 0.0;
+    const double id = originalIds ? originalIds->GetComponent(k, 0) : static_cast<double>(k);
+    if (!(id >= 0.0 && id < static_cast<double>(inside->GetNumberOfTuples())))
+    {
+      throw InvalidInput("The Selection refers to " + std::to_string(inside->GetNumberOfTuples()) +
+                         " points or cells, but the surface names the original id " +
+                         std::to_string(id) + ". Extract the surface again.");
+    }
+    isSelected[k] = inside->GetComponent(static_cast<vtkIdType>(id), 0) > 0.0;
   }
   return isSelected;
 }
@@ -370,8 +327,9 @@ std::vector<char> SelectedPoints::Evaluate(
     vtkPolyData* whole = joined ? joined->Surface().whole.GetPointer() : surface;
     return std::vector<char>(whole->GetNumberOfPoints(), 0);
   }
-  Validate(selection);
-  this->Extract(whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0), selection);
+  vtkDataObject* data = whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0);
+  RequireEvaluable(selection);
+  this->Extract(data, selection);
   vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
   return joined ? this->PointsOfBlocks(*joined)
          : part ? PointsOf(part, surface)

@@ -1,0 +1,21 @@
+// Refuses selections that VTK cannot evaluate, or evaluates without a check of their lists.
+#ifndef GridFEM_SelectionCheck_h
+#define GridFEM_SelectionCheck_h
+
+#include <string>
+
+class vtkSelection;
+
+namespace gridfem
+{
+
+/// Refuses a selection on several ranks, because each evaluates only its own data.
+/// @param what  the beginning of the message
+void RequireOneProcess(const std::string& what);
+
+/// Throws InvalidInput for a selection that vtkExtractSelection cannot evaluate here.
+void RequireEvaluable(vtkSelection* selection);
+
+} // namespace gridfem
+
+#endif
