@@ -31,8 +31,8 @@ class PathSolver
 public:
   static constexpr const char* GraphStage = "Graph";
 
-  /// Windows (WindowSearch) of one search, 290 MB in all. Enough for paths across meshes of some
-  /// 500,000 triangles.
+  /// Windows (WindowSearch) of one search, 290 MB in all. The longest paths on scans of 100,000
+  /// triangles take up to a million.
   static constexpr std::size_t MostWindows = 4000000;
 
   struct Options
