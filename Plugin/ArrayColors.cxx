@@ -294,7 +294,8 @@ public:
       [follower](void* data)
       {
         const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
-        return made->GroupName == std::string("lookup_tables") && made->ProxyName && made->Proxy &&
+        return made->Proxy && made->ProxyName && made->GroupName && // links have no group
+               made->GroupName == std::string("lookup_tables") &&
                follower->Color(made->ProxyName, made->Proxy);
       });
   }

@@ -22,7 +22,7 @@ MUTANTS = (
      "  return std::isnan(a) || a >= b ? a : b;",
      "  return std::fmax(a, b);",
      "TestSolutionAccuracy"),
-    ("load 1 % too large", "Filters/Core/Integrals/LoadVector.cxx",
+    ("load 1 % too large", "Filters/Core/Integrals/LoadSums.h",
      "      const Lanes weighted = sample.weight * value[c];",
      "      const Lanes weighted = 1.01 * sample.weight * value[c];",
      "TestLoadVector"),

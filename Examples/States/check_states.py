@@ -27,7 +27,7 @@ STATES = {
     "octree": ("Basis", "BasisFunction", 0),
     "path": ("Lines of Paths", "ArcLength", 0),
     "poisson": ("Smoothed", "Solution", 0),
-    "random": ("Sample", "Sample000", 0),
+    "gaussian_field": ("Sample", "Sample000", 0),
     "signatures": ("Signatures", "BiharmonicDistance", 0),
     "spray": ("Detail", "Selected", 0),
     "stitch": ("Stitched", "StitchedColors", 0),

@@ -39,12 +39,13 @@ class TestPipeline(unittest.TestCase):
             "ScreenedPoisson": ["vtkTable"],
             "LaplaceSpectrum": ["vtkTable"],
             "MeanCurvatureFlow": ["vtkTable"],
-            "SpectralSignatures": ["vtkTable"]}
+            "SpectralSignatures": ["vtkTable"],
+            "GeodesicPaths": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
                 proxy = getattr(simple, name)(
-                    Input=surface, Depth=DEPTH, **plugin.CHOICES.get(name, {}))
+                    Input=surface, **plugin.depth_of(name, DEPTH), **plugin.CHOICES.get(name, {}))
                 self.assertEqual(outputs(proxy), ["vtkPolyData", *further.get(name, [])])
                 self.assertGreater(plugin.data(proxy).GetNumberOfCells(), 0)
 

@@ -58,7 +58,8 @@ def build():
             "stitch": stitch, "spread": spread, "distance": distance, "heat": heat, "flow": flow}
     types = {proxy.SMProxy.GetXMLName() for proxy in made.values()}
     for name in sorted(set(plugin.PROXIES) - types):
-        made[name] = getattr(simple, name)(Input=labels, Depth=4, **plugin.CHOICES.get(name, {}))
+        made[name] = getattr(simple, name)(
+            Input=labels, **plugin.depth_of(name, 4), **plugin.CHOICES.get(name, {}))
     for name, proxy in made.items():
         simple.RenameSource(name, proxy)
     return list(made)

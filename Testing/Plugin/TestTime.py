@@ -57,7 +57,8 @@ class TestTime(unittest.TestCase):
         for name in plugin.PROXIES:
             if name in ("MeanCurvatureFlow", "HeatDiffusion"):
                 continue  # times are always its own steps
-            proxy = getattr(simple, name)(Input=surface, Depth=DEPTH, **own.get(name, {}))
+            proxy = getattr(simple, name)(
+                Input=surface, **plugin.depth_of(name, DEPTH), **own.get(name, {}))
             for time in FORWARDS_AND_BACKWARDS:
                 with self.subTest(proxy=name, time=time):
                     proxy.UpdatePipeline(time)

@@ -29,7 +29,7 @@ CHOICES = {
 CHANGES = {
     "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
     "FarthestPoints": ("NumberOfPoints", "4"),
-    "GaussianField": ("Seed", "7"),
+    "GaussianField": ("Seed", "7"), "GeodesicPaths": ("PathType", "3"),
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),
@@ -37,6 +37,15 @@ CHANGES = {
     "SurfaceDetail": ("DetailScale", "3"), "SurfaceGradient": ("Array", "height")}
 
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
+
+
+# Filters that compute on the mesh itself, without a grid.
+WITHOUT_GRID = ("GeodesicPaths",)
+
+
+def depth_of(name, depth):
+    """Returns the property for the depth of a filter, if it has one."""
+    return {} if name in WITHOUT_GRID else {"Depth": depth}
 
 
 def change_of(name):

@@ -65,8 +65,9 @@ int PowerOfLength(const std::string& array)
     { "Interpolated", 0 }, { "Laplacian", -2 }, { "MaximumCurvature", -1 },
     { "MaximumCurvatureDirection", 0 }, { "MeanCurvature", -1 }, { "MinimumCurvature", -1 },
     { "MinimumCurvatureDirection", 0 }, { "Mode", -1 }, { "NearestPoint", 0 },
-    { "NormalDisplacement", 1 }, { "QuasiConformalError", 0 }, { "ShapeIndex", 0 },
-    { "Signature", 0 }, { "Solution", 0 }, { "StitchedColors", 0 }, { "WaveKernelSignature", 0 } };
+    { "NormalDisplacement", 1 }, { "PathId", 0 }, { "QuasiConformalError", 0 }, { "Sample000", 0 },
+    { "ShapeIndex", 0 }, { "Signature", 0 }, { "Solution", 0 }, { "StitchedColors", 0 },
+    { "WaveKernelSignature", 0 } };
   const auto found = powers.find(array);
   EXPECT_TRUE(found != powers.end()) << array << " has no unit in this test";
   return found == powers.end() ? 0 : found->second;
@@ -837,10 +838,13 @@ TEST_P(FailureRule, FarTinyAndHugeMeshesGiveTheSameResult)
   // The coordinates at 5e6 have ten digits left below 1; the solution may be off by as much, times
   // the condition of slivers and the solver's tolerance. Powers of two would be exact; 1e9 is not.
   ExpectEqual(RunMoved(GetParam(), 1.0, { 5e6, -5e6, 5e6 }), plain, 1e-6);
+  // Rounding decides which pivots of an element below 1e-12 count in a random field. A field is
+  // their root.
+  const double tolerance = std::string(GetParam().name) == "GaussianField" ? 1e-6 : 1e-7;
   for (const double scale : { 1e-9, 1e9 })
   {
     SCOPED_TRACE(scale);
-    ExpectEqual(RunMoved(GetParam(), scale, { 0, 0, 0 }), plain, 1e-7);
+    ExpectEqual(RunMoved(GetParam(), scale, { 0, 0, 0 }), plain, tolerance);
   }
 }
 

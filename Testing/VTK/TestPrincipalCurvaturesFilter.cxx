@@ -90,7 +90,7 @@ TEST(PrincipalCurvaturesFilter, RefusesWhatItCannotUse)
     const Messages messages(filter);
     EXPECT_EQ(filter->GetExecutive()->Update(), 0);
     ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find("SmoothingScale"), std::string::npos);
+    EXPECT_NE(messages.errors[0].find("Smoothing Scale"), std::string::npos);
     EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   }
   for (const double scale : { 0.0, 1e-30, 1e30 })

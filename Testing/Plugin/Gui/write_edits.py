@@ -23,7 +23,7 @@ def edit_filter(name):
         for key, (_, array) in plugin.CHOICES[name].items():
             script.enter(proxy.GetProperty(key), array)
     depth = proxy.GetProperty("Depth")
-    if depth.GetPanelVisibility() == "default":
+    if depth and depth.GetPanelVisibility() == "default":
         script.enter(depth, "4")
     script.apply()
     script.save(f"{name}.Shown")

@@ -87,8 +87,8 @@ script.apply()  # raw.vtp
 look_at_modes()
 for filter_name in plugin.PROXIES:
     if filter_name != "LaplaceSpectrum":
-        has_depth = getattr(simple, filter_name)(
-            Input=surface).SMProxy.GetProperty("Depth").GetPanelVisibility() == "default"
+        depth = getattr(simple, filter_name)(Input=surface).SMProxy.GetProperty("Depth")
+        has_depth = depth and depth.GetPanelVisibility() == "default"
         first_apply(filter_name, f"raw.{filter_name}",
                     **({"Depth": DEPTH} if has_depth and filter_name != "ClipToOctree" else {}))
         script.delete()

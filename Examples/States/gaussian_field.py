@@ -3,7 +3,7 @@ deviation of two hundred samples, which is larger at the boundary.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 
-    GRIDFEM_MESH=terrain.ply paraview --script=random.py
+    GRIDFEM_MESH=terrain.ply paraview --script=gaussian_field.py
 
 GRIDFEM_MESH names a file that ParaView reads; without it half a ring with waves is shown. Change Range,
 Smoothness and Seed of Sample.
