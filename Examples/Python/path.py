@@ -46,7 +46,7 @@ def main():
         path.PathType = kind
         path.UpdatePipeline()
         mesh = required(servermanager.Fetch(path))
-        lines = required(servermanager.Fetch(simple.OutputPort(path, 1)))
+        lines = required(servermanager.Fetch(path, idx=1))
         lengths = lines.GetCellData().GetArray("Length")
         print(f"{label}: " + ", ".join(f"{lengths.GetValue(k):.4g}" for k in range(lengths.GetNumberOfTuples())))
         layers = [Layer(mesh), Layer(tubes(lines, 0.003 * mesh.GetLength()), color=RED)]
