@@ -13,7 +13,7 @@ Usage: Testing/checks.sh STEP...
   tidy-all   the same over all of Filters, some hours of one processor
   files      every file compiled alone, for any processor, with the benchmarks, in build-files/:
              continuous integration puts files together, which hides a missing include
-  sanitize   the tests of Core and random problems with the address and undefined-behaviour sanitizers,
+  sanitize   the tests of Core and random problems with the address and undefined-behavior sanitizers,
              in build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
   sanitize-filters
              the same with filters on damaged data, tests of filters, and the tests of ranks, in

@@ -206,23 +206,23 @@ LevelSummary SummarizeLevel(int level, vtkUnstructuredGrid* basis)
 {
   LevelSummary summary{ level, basis->GetNumberOfCells(), basis->GetNumberOfPoints(), 0 };
   basis->BuildLinks();
-  std::vector<vtkIdType> neighbours;
+  std::vector<vtkIdType> neighbors;
   for (vtkIdType function = 0; function < summary.functions; ++function)
   {
     // Two functions share a matrix entry when they share a patch.
     vtkIdType numberOfPatches;
     vtkIdType* patches;
     basis->GetPointCells(function, numberOfPatches, patches);
-    neighbours.clear();
+    neighbors.clear();
     for (vtkIdType i = 0; i < numberOfPatches; ++i)
     {
       vtkIdType numberOfFunctions;
       const vtkIdType* functions;
       basis->GetCellPoints(patches[i], numberOfFunctions, functions);
-      neighbours.insert(neighbours.end(), functions, functions + numberOfFunctions);
+      neighbors.insert(neighbors.end(), functions, functions + numberOfFunctions);
     }
-    std::sort(neighbours.begin(), neighbours.end());
-    summary.nonZeros += std::unique(neighbours.begin(), neighbours.end()) - neighbours.begin();
+    std::sort(neighbors.begin(), neighbors.end());
+    summary.nonZeros += std::unique(neighbors.begin(), neighbors.end()) - neighbors.begin();
   }
   return summary;
 }

@@ -18,7 +18,7 @@ constexpr double Height = 0.7; // half the distance of two strands where they cr
 constexpr double TubeRadius = 0.68;
 constexpr int NumberOfStripes = 18; // where strands cross, two stripes of different colors meet
 
-vtkVector3d Centre(double t)
+vtkVector3d Center(double t)
 {
   const double reach = 2 + std::cos(3 * t);
   return { reach * std::cos(2 * t), reach * std::sin(2 * t), Height * std::sin(3 * t) };
@@ -38,7 +38,7 @@ void InsertRing(double t, double stripe, vtkPoints* points, vtkDoubleArray* stri
   const vtkVector3d tangent = Tangent(t);
   const vtkVector3d outward = tangent.Cross(vtkVector3d(0, 0, 1)).Normalized();
   const vtkVector3d upward = outward.Cross(tangent).Normalized();
-  const vtkVector3d centre = Centre(t);
+  const vtkVector3d center = Center(t);
   for (int j = 0; j < Around; ++j)
   {
     const double angle = 2 * vtkMath::Pi() * j / Around;
@@ -46,7 +46,7 @@ void InsertRing(double t, double stripe, vtkPoints* points, vtkDoubleArray* stri
     for (int c = 0; c < 3; ++c)
     {
       point[c] =
-        centre[c] + TubeRadius * (std::cos(angle) * outward[c] + std::sin(angle) * upward[c]);
+        center[c] + TubeRadius * (std::cos(angle) * outward[c] + std::sin(angle) * upward[c]);
     }
     points->InsertNextPoint(point.GetData());
     stripes->InsertNextValue(stripe);

@@ -51,8 +51,8 @@ def field_of(mesh):
 def is_lost(mesh):
     """Whether a point is one of the nearest to the centers of the holes."""
     points = [mesh.GetPoint(point) for point in range(mesh.GetNumberOfPoints())]
-    centres = points[::max(1, len(points) // HOLES)]
-    nearest = [min(math.dist(point, centre) for centre in centres) for point in points]
+    centers = points[::max(1, len(points) // HOLES)]
+    nearest = [min(math.dist(point, center) for center in centers) for point in points]
     radius = sorted(nearest)[int(LOST * len(points))]
     return [distance < radius for distance in nearest]
 

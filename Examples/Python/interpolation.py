@@ -1,4 +1,4 @@
-"""Colours from twelve points, spread over a surface, and a picture of them.
+"""Colors from twelve points, spread over a surface, and a picture of them.
 
     PYTHONPATH=build/lib/python3/dist-packages \\
         xvfb-run -a pvpython interpolation.py MESH DEPTH PICTURE.png
@@ -19,7 +19,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from sheet import Layer, Tile, View, required, write_sheet
 
-COLOURS = 12
+COLORS = 12
 
 
 def read(path):
@@ -41,18 +41,18 @@ def far_apart(mesh, count):
     return chosen
 
 
-def coloured_points(places):
+def colored_points(places):
     """Twelve bright colors at twelve places."""
-    points, colours = vtkPoints(), vtkUnsignedCharArray()
-    colours.SetName("Colour")
-    colours.SetNumberOfComponents(3)
+    points, colors = vtkPoints(), vtkUnsignedCharArray()
+    colors.SetName("Color")
+    colors.SetNumberOfComponents(3)
     for k, place in enumerate(places):
         points.InsertNextPoint(place)
-        colours.InsertNextTuple(
+        colors.InsertNextTuple(
             [255 * c for c in colorsys.hsv_to_rgb(k * 0.61803398875 % 1.0, 0.9, 0.95)])
     data = vtkPolyData()
     data.SetPoints(points)
-    data.GetPointData().AddArray(colours)
+    data.GetPointData().AddArray(colors)
     return data
 
 
@@ -61,7 +61,7 @@ def spread(mesh, places, depth, smoothness):
     interpolation.SetInputData(0, mesh)
     interpolation.SetInputData(2, places)
     points = vtkDataObject.FIELD_ASSOCIATION_POINTS
-    interpolation.SetInputArrayToProcess(2, 2, 0, points, "Colour")
+    interpolation.SetInputArrayToProcess(2, 2, 0, points, "Color")
     interpolation.SetSmoothness(smoothness)
     interpolation.SetDepth(depth)
     interpolation.Update()
@@ -70,13 +70,13 @@ def spread(mesh, places, depth, smoothness):
 
 def as_bytes(mesh):
     """The mesh with its interpolated colors as bytes."""
-    colours = vtkUnsignedCharArray()
-    colours.SetName("Colour")
-    colours.SetNumberOfComponents(3)
+    colors = vtkUnsignedCharArray()
+    colors.SetName("Color")
+    colors.SetNumberOfComponents(3)
     values = mesh.GetPointData().GetArray("Interpolated")
     for point in range(values.GetNumberOfTuples()):
-        colours.InsertNextTuple([min(255, max(0, c)) for c in values.GetTuple(point)])
-    mesh.GetPointData().AddArray(colours)
+        colors.InsertNextTuple([min(255, max(0, c)) for c in values.GetTuple(point)])
+    mesh.GetPointData().AddArray(colors)
     return mesh
 
 
@@ -84,7 +84,7 @@ def dots(places, size):
     """A small ball at every place."""
     ball = vtkSphereSource()
     ball.SetRadius(0.02 * size)
-    places.GetPointData().SetActiveScalars("Colour")
+    places.GetPointData().SetActiveScalars("Color")
     glyphs = vtkGlyph3D()
     glyphs.SetInputData(places)
     glyphs.SetSourceConnection(ball.GetOutputPort())
@@ -103,16 +103,16 @@ def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     mesh, depth = read(sys.argv[1]), int(sys.argv[2])
-    places = coloured_points(far_apart(mesh, COLOURS))
+    places = colored_points(far_apart(mesh, COLORS))
     bounds = mesh.GetBounds()
     size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
-    balls = Layer(dots(places, size), "Colour", direct=True)
+    balls = Layer(dots(places, size), "Color", direct=True)
     view = upright(mesh, size)
     tiles = [Tile("given at twelve points", view, [Layer(mesh), balls])]
     for smoothness, name in ((vtkHarmonicInterpolation.Harmonic, "harmonic"),
                              (vtkHarmonicInterpolation.Biharmonic, "biharmonic")):
         result = required(spread(mesh, places, depth, smoothness))
-        tiles.append(Tile(name, view, [Layer(as_bytes(result), "Colour", direct=True), balls]))
+        tiles.append(Tile(name, view, [Layer(as_bytes(result), "Color", direct=True), balls]))
     write_sheet(tiles, sys.argv[3], 3, (320, 290))
 
 

@@ -93,7 +93,7 @@ def clip_tiles(knot):
     patches = Layer(basis.GetOutput(), "PatchId", shuffled=True, edges=True)
     return [
         Tile("a surface and its octree cells", view_of(knot, 4 / 3), [Layer(knot), cells]),
-        Tile("clipped to the cells; one colour, one patch", BEND, [patches]),
+        Tile("clipped to the cells; one color, one patch", BEND, [patches]),
     ]
 
 

@@ -22,7 +22,7 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 BLUE, WHITE, RED = (0.13, 0.34, 0.68), (0.96, 0.96, 0.95), (0.76, 0.16, 0.15)
-GREY = (0.7, 0.7, 0.68)
+GRAY = (0.7, 0.7, 0.68)
 INK = (0.15, 0.15, 0.15)
 GAP = 8  # pixels between tiles
 
@@ -46,7 +46,7 @@ class Layer:
 class View:
     """The view of a tile, in parallel projection."""
 
-    centre: tuple
+    center: tuple
     direction: tuple  # from the center to the eye
     up: tuple
     height: float  # of what is seen
@@ -78,7 +78,7 @@ def view_of(data, width_to_height=1.0, tilt=25.0):
     """Looks at the broadest side of a data set, a little from above."""
     corner, longest, middle, shortest = [0.0] * 3, [0.0] * 3, [0.0] * 3, [0.0] * 3
     vtkOBBTree().ComputeOBB(data, corner, longest, middle, shortest, [0.0] * 3)
-    centre = [c + (a + b + d) / 2 for c, a, b, d in zip(corner, longest, middle, shortest)]
+    center = [c + (a + b + d) / 2 for c, a, b, d in zip(corner, longest, middle, shortest)]
     broad, tall, deep = (math.hypot(*axis) for axis in (longest, middle, shortest))
     across = [x / broad for x in longest]
     up = [x / (tall or 1) for x in middle]
@@ -86,7 +86,7 @@ def view_of(data, width_to_height=1.0, tilt=25.0):
     cosine, sine = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
     seen = max(tall * cosine + deep * sine, broad / width_to_height)
     return View(
-        centre,
+        center,
         [cosine * f - sine * u for f, u in zip(front, up)],
         [cosine * u + sine * f for f, u in zip(front, up)],
         1.08 * seen,
@@ -96,7 +96,7 @@ def view_of(data, width_to_height=1.0, tilt=25.0):
 def diverging_colors(low, high):
     colors = vtkColorTransferFunction()
     colors.SetColorSpaceToLab()
-    colors.SetNanColor(*GREY)
+    colors.SetNanColor(*GRAY)
     for value, color in ((low, BLUE), ((low + high) / 2, WHITE), (high, RED)):
         colors.AddRGBPoint(value, *color)
     return colors
@@ -177,9 +177,9 @@ def renderer_of(tile, viewport):
         renderer.AddActor(actor_of(layer))
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
-    camera.SetFocalPoint(*tile.view.centre)
+    camera.SetFocalPoint(*tile.view.center)
     camera.SetPosition(
-        *(c + tile.view.height * d for c, d in zip(tile.view.centre, tile.view.direction))
+        *(c + tile.view.height * d for c, d in zip(tile.view.center, tile.view.direction))
     )
     camera.SetViewUp(*tile.view.up)
     camera.SetParallelScale(tile.view.height / 2)

@@ -35,7 +35,7 @@ def isolines(mesh, values, radius):
 
 
 def tile(label, distance):
-    """Colours that are white at the curve, the curve, and isolines on both sides."""
+    """Colors that are white at the curve, the curve, and isolines on both sides."""
     mesh = required(servermanager.Fetch(distance))
     low, high = mesh.GetPointData().GetArray("Distance").GetRange()
     print(f"{label}: from {low:.4g} to {high:.4g}")
@@ -55,15 +55,15 @@ def main():
     surface.UpdatePipeline()
     bounds = surface.GetDataInformation().GetBounds()
     low, high = bounds[0::2], bounds[1::2]
-    centre = [(a + b) / 2 for a, b in zip(low, high)]
+    center = [(a + b) / 2 for a, b in zip(low, high)]
 
     cut = simple.Slice(Input=surface)
-    cut.SliceType.Origin = centre
+    cut.SliceType.Origin = center
     cut.SliceType.Normal = [0.2, 1.0, 0.1]
     from_slice = GeodesicDistance(Input=surface, Sources=cut, Signed=1, Depth=int(sys.argv[2]))
 
     labels = simple.Calculator(Input=surface, ResultArrayName="Label",
-                               Function=f"if(coordsX > {centre[0]}, 1, 0)")
+                               Function=f"if(coordsX > {center[0]}, 1, 0)")
     from_label = GeodesicDistance(Input=labels, Signed=1, LabelArray=["POINTS", "Label"],
                                   Depth=int(sys.argv[2]))
     tiles = [tile("from a slice", from_slice), tile("from the border of a label", from_label)]

@@ -47,7 +47,7 @@ def main():
         Input=distance, Depth=depth, ScreeningWeight=4000, Selection=near, TransitionWidth=0.03)
 
     whole = from_the_front(shape, 1.1)
-    middle = (whole.centre[0], bounds[2] + 0.77 * height, whole.centre[2])
+    middle = (whole.center[0], bounds[2] + 0.77 * height, whole.center[2])
     view = View(middle, whole.direction, whole.up, 0.56 * height)
 
     def tile(label, array="", **properties):

@@ -29,7 +29,7 @@ def read(path):
     return reader.GetOutput()
 
 
-def colours_of(mesh):
+def colors_of(mesh):
     """A function that gives the three colors of a point."""
     given = mesh.GetPointData().GetArray("RGB") or mesh.GetPointData().GetArray("RGBA")
     if given:
@@ -53,7 +53,7 @@ def add_scans(mesh):
     seen.SetName("Seen")
     seen.SetNumberOfComponents(3)
     scan.SetName("Scan")
-    colours = colours_of(mesh)
+    colors = colors_of(mesh)
     for point in range(mesh.GetNumberOfPoints()):
         place = [x - middle for x, middle in zip(mesh.GetPoint(point), mesh.GetCenter())]
         turn = math.atan2(place[along], place[across]) / (2 * math.pi) + 0.5
@@ -61,7 +61,7 @@ def add_scans(mesh):
         scan.InsertNextValue(own)
         seen.InsertNextTuple(
             [min(255, max(0, round(GAIN[own] * c + OFFSET[own] * tint)))
-             for c, tint in zip(colours(point), TINT)])
+             for c, tint in zip(colors(point), TINT)])
     mesh.GetPointData().AddArray(seen)
     mesh.GetPointData().AddArray(scan)
     return upright

@@ -66,7 +66,7 @@ def is_as_expected(name, picture):
     low, high = source.PointData[array].GetRange()
     steps = len(getattr(source, "TimestepValues", []))
     shown = [colors(view) for view in simple.GetViews() if view.IsA("vtkSMRenderViewProxy")]
-    print(f"{name}: {steps} time steps; {array} lies between {low:.3g} and {high:.3g}; {shown} colours",
+    print(f"{name}: {steps} time steps; {array} lies between {low:.3g} and {high:.3g}; {shown} colors",
           flush=True)
     simple.SaveScreenshot(str(picture), simple.GetLayout(), ImageResolution=[400, 150])
     clear()

@@ -140,7 +140,7 @@ void BlockPartition::Divide(std::vector<Block> blocks, bool isCoarsened, int ran
   for (const MortonKey block : blocks_)
   {
     const int owner = this->OwnerOf(block, depth_);
-    this->ForNeighbours(block, [&](MortonKey key) { near_.emplace_back(key, owner); });
+    this->ForNeighbors(block, [&](MortonKey key) { near_.emplace_back(key, owner); });
   }
   std::sort(near_.begin(), near_.end());
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
@@ -160,7 +160,7 @@ std::pair<MortonKey, MortonKey> BlockPartition::CellsOf(int rank, int depth) con
 }
 
 template<class Body>
-void BlockPartition::ForNeighbours(MortonKey block, Body&& body) const
+void BlockPartition::ForNeighbors(MortonKey block, Body&& body) const
 {
   const CellIndex index = MortonDecode(block);
   const int side = 1 << depth_;
@@ -183,7 +183,7 @@ CellRegion BlockPartition::RegionOf(int rank) const
   const auto end = std::lower_bound(begin, blocks_.end(), begin_[rank + 1]);
   for (auto block = begin; block != end; ++block)
   {
-    this->ForNeighbours(*block, [&](MortonKey key) { region.push_back(key); });
+    this->ForNeighbors(*block, [&](MortonKey key) { region.push_back(key); });
   }
   std::sort(region.begin(), region.end());
   region.erase(std::unique(region.begin(), region.end()), region.end());

@@ -74,7 +74,7 @@ private:
   void Divide(std::vector<Block> blocks, bool isCoarsened, int ranks);
   void AddRanksNear(MortonKey block, std::vector<int>& ranks) const;
   template<class Body>
-  void ForNeighbours(MortonKey block, Body&& body) const;
+  void ForNeighbors(MortonKey block, Body&& body) const;
 
   int depth_ = 0;
   int shift_ = 0;                 // cells per side of a block: 2^shift

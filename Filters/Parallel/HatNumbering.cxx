@@ -124,7 +124,7 @@ std::vector<std::vector<int>> HoldersOf(const Communicator& ranks, const HatList
   return holders;
 }
 
-std::vector<RankNeighbour> NeighboursOf(
+std::vector<RankNeighbor> NeighborsOf(
   const std::vector<std::vector<int>>& holders, const std::vector<Index>& order, int rank)
 {
   std::map<int, std::vector<Index>> shared;
@@ -138,12 +138,12 @@ std::vector<RankNeighbour> NeighboursOf(
       }
     }
   }
-  std::vector<RankNeighbour> neighbours;
+  std::vector<RankNeighbor> neighbors;
   for (auto& [other, functions] : shared)
   {
-    neighbours.push_back({ other, std::move(functions) });
+    neighbors.push_back({ other, std::move(functions) });
   }
-  return neighbours;
+  return neighbors;
 }
 
 /// Collective. Numbers own hats and sends their numbers to the other ranks.
@@ -155,7 +155,7 @@ void TakeNumbers(const Communicator& ranks, LevelNumbering& numbering)
     [&]
     {
       RequireIndices(static_cast<double>(numbering.total), "hat functions of all ranks");
-      rows = std::make_unique<const RankRows>(ranks, numbering.ghosts, numbering.neighbours);
+      rows = std::make_unique<const RankRows>(ranks, numbering.ghosts, numbering.neighbors);
       number = MultiVector::Zero(static_cast<Id>(numbering.touching.size()), 1);
       for (Id row = numbering.ghosts; row < number.rows(); ++row)
       {
@@ -189,7 +189,7 @@ LevelNumbering NumberHats(const Communicator& ranks, const HatList& hats, std::v
           std::max<Index>(1, static_cast<Index>(holders[order[k]].size())));
         numbering.ghosts += ownerOf(order[k]) < ranks.Rank() ? 1 : 0;
       }
-      numbering.neighbours = NeighboursOf(holders, order, ranks.Rank());
+      numbering.neighbors = NeighborsOf(holders, order, ranks.Rank());
     });
   const Communicator::Share share = ranks.ShareOf(static_cast<Id>(place.size()) - numbering.ghosts);
   numbering.begin = share.before;

@@ -60,22 +60,22 @@ public:
   Index CountOf(Index function) const { return count_[function]; }
 
   /// @param place  place of every function in the numbering
-  std::vector<RankNeighbour> Neighbours(const std::vector<Index>& place) const
+  std::vector<RankNeighbor> Neighbors(const std::vector<Index>& place) const
   {
-    std::vector<RankNeighbour> neighbours;
+    std::vector<RankNeighbor> neighbors;
     for (const auto& [other, function] : others_)
     {
-      if (neighbours.empty() || neighbours.back().rank != other)
+      if (neighbors.empty() || neighbors.back().rank != other)
       {
-        neighbours.push_back({ other, {} });
+        neighbors.push_back({ other, {} });
       }
-      neighbours.back().functions.push_back(place[function]);
+      neighbors.back().functions.push_back(place[function]);
     }
-    for (RankNeighbour& neighbour : neighbours)
+    for (RankNeighbor& neighbor : neighbors)
     {
-      std::sort(neighbour.functions.begin(), neighbour.functions.end());
+      std::sort(neighbor.functions.begin(), neighbor.functions.end());
     }
-    return neighbours;
+    return neighbors;
   }
 
   /// Identifies a function of another rank by a patch in the owner's cells.
@@ -262,7 +262,7 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
         numbering.number.push_back(number[functions[k]]);
         numbering.touching.push_back(touching->CountOf(functions[k]));
       }
-      numbering.neighbours = touching->Neighbours(place);
+      numbering.neighbors = touching->Neighbors(place);
     });
   return numbering;
 }

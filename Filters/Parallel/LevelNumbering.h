@@ -12,7 +12,7 @@ namespace gridfem
 
 /// Another rank, and the functions here that also touch its cells. They are in ascending order of
 /// their numbers, so both ranks list them in the same order.
-struct RankNeighbour
+struct RankNeighbor
 {
   int rank;
   std::vector<Index> functions;
@@ -27,9 +27,9 @@ struct LevelNumbering
   Id begin = 0; // number of this rank's first function
   Id total = 0; // functions of all ranks
   std::vector<Id> number;
-  std::vector<Index> touching;           // number of ranks that each function touches
-  Index ghosts = 0;                      // number of functions that belong to other ranks
-  std::vector<RankNeighbour> neighbours; // ascending by rank
+  std::vector<Index> touching;         // number of ranks that each function touches
+  Index ghosts = 0;                    // number of functions that belong to other ranks
+  std::vector<RankNeighbor> neighbors; // ascending by rank
 
   Index Functions() const { return static_cast<Index>(number.size()); }
   Index OwnFunctions() const { return this->Functions() - ghosts; }

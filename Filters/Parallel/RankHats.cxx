@@ -257,7 +257,7 @@ RankHats::RankHats(const RankSpace& space, const Job& job)
       level->matrices = AssembleHatMatrices(space.Own().Mesh(), level->functions, {}, job.threads);
       job.Check(0.5);
       OrderAlone(*numbering_, job.threads, *level);
-      rows = std::make_unique<const RankRows>(ranks, numbering_->ghosts, numbering_->neighbours);
+      rows = std::make_unique<const RankRows>(ranks, numbering_->ghosts, numbering_->neighbors);
       job.Check(0.7);
     });
   level->prolongation = BuildProlongation(space, atPoints, *rows, job.threads);

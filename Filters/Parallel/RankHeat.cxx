@@ -66,9 +66,9 @@ void RankHeat::FindOthers(const SparseMatrix& part)
   ranks_.Together(
     [&]
     {
-      for (const RankNeighbour& neighbour : this->Numbering().neighbours)
+      for (const RankNeighbor& neighbor : this->Numbering().neighbors)
       {
-        messages[neighbour.rank] = this->EntriesFor(neighbour, part);
+        messages[neighbor.rank] = this->EntriesFor(neighbor, part);
       }
     });
   messages = ranks_.Exchange(messages);
@@ -77,18 +77,18 @@ void RankHeat::FindOthers(const SparseMatrix& part)
 
 /// The entries of rows that a neighbor shares. Notes the columns that the neighbor does not share.
 std::vector<RankHeat::ToldEntry> RankHeat::EntriesFor(
-  const RankNeighbour& neighbour, const SparseMatrix& part)
+  const RankNeighbor& neighbor, const SparseMatrix& part)
 {
   std::vector<char> isShared(functions_, 0);
-  for (const Index function : neighbour.functions)
+  for (const Index function : neighbor.functions)
   {
     isShared[function] = 1;
   }
   std::vector<ToldEntry> entries;
-  std::vector<Index>& told = told_[neighbour.rank];
-  for (std::size_t k = 0; k < neighbour.functions.size(); ++k)
+  std::vector<Index>& told = told_[neighbor.rank];
+  for (std::size_t k = 0; k < neighbor.functions.size(); ++k)
   {
-    const Index row = neighbour.functions[k];
+    const Index row = neighbor.functions[k];
     for (Id e = part.rowBegin[row]; e < part.rowBegin[row + 1]; ++e)
     {
       const Index column = part.column[e];
@@ -135,11 +135,11 @@ void RankHeat::AddOthers(const SparseMatrix& part, const EntriesOfRanks& message
       unknown[rank].begin(), unknown[rank].end(), std::back_inserter(heard_[rank]), placeOf);
   }
   std::vector<MatrixEntry> others;
-  for (const RankNeighbour& neighbour : numbering.neighbours)
+  for (const RankNeighbor& neighbor : numbering.neighbors)
   {
-    for (const ToldEntry& entry : messages[neighbour.rank])
+    for (const ToldEntry& entry : messages[neighbor.rank])
     {
-      const Index row = neighbour.functions[entry.row];
+      const Index row = neighbor.functions[entry.row];
       const Index column = placeOf(entry.column);
       others.push_back({ row, column, entry.value });
       if (column >= functions_) // so that heat can come from there

@@ -43,7 +43,7 @@ private:
 
   const LevelNumbering& Numbering() const { return levels_.Space().Numberings().front(); }
   void FindOthers(const SparseMatrix& part);
-  std::vector<ToldEntry> EntriesFor(const RankNeighbour& neighbour, const SparseMatrix& part);
+  std::vector<ToldEntry> EntriesFor(const RankNeighbor& neighbor, const SparseMatrix& part);
   void AddOthers(const SparseMatrix& part, const EntriesOfRanks& messages);
   void TakeOthers(MultiVector& u) const;
   Id CountUnreached(const MultiVector& heat) const;

@@ -51,16 +51,16 @@ void Renumber(const std::vector<Index>& list, Functions& functions)
 /// @param inList  shared functions with each neighbor, as places in the list
 SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   const std::vector<Index>& list, const LevelNumbering& numbering,
-  const std::vector<RankNeighbour>& inList)
+  const std::vector<RankNeighbor>& inList)
 {
   std::vector<std::vector<MatrixEntry>> messages(ranks.Size());
   ranks.Together(
     [&]
     {
-      for (const RankNeighbour& neighbour : numbering.neighbours)
+      for (const RankNeighbor& neighbor : numbering.neighbors)
       {
-        ForEntries(A, neighbour.functions,
-          [&](const MatrixEntry& entry) { messages[neighbour.rank].push_back(entry); });
+        ForEntries(A, neighbor.functions,
+          [&](const MatrixEntry& entry) { messages[neighbor.rank].push_back(entry); });
       }
     });
   messages = ranks.Exchange(messages);
@@ -70,12 +70,12 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
     {
       std::vector<MatrixEntry> entries;
       ForEntries(A, list, [&](const MatrixEntry& entry) { entries.push_back(entry); });
-      for (const RankNeighbour& neighbour : inList)
+      for (const RankNeighbor& neighbor : inList)
       {
-        for (const MatrixEntry& entry : messages[neighbour.rank])
+        for (const MatrixEntry& entry : messages[neighbor.rank])
         {
           entries.push_back(
-            { neighbour.functions[entry.row], neighbour.functions[entry.column], entry.value });
+            { neighbor.functions[entry.row], neighbor.functions[entry.column], entry.value });
         }
       }
       whole = SumOf({}, std::move(entries), static_cast<Index>(list.size()));
@@ -87,12 +87,12 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
 std::vector<int> OwnersOf(const LevelNumbering& numbering, int rank)
 {
   std::vector<int> owner(numbering.Functions(), rank);
-  for (auto neighbour = numbering.neighbours.rbegin(); neighbour != numbering.neighbours.rend();
-       ++neighbour) // the lowest rank comes last
+  for (auto neighbor = numbering.neighbors.rbegin(); neighbor != numbering.neighbors.rend();
+       ++neighbor) // the lowest rank comes last
   {
-    for (const Index function : neighbour->functions)
+    for (const Index function : neighbor->functions)
     {
-      owner[function] = std::min(owner[function], neighbour->rank);
+      owner[function] = std::min(owner[function], neighbor->rank);
     }
   }
   return owner;
@@ -102,7 +102,7 @@ using RankPair = std::array<int, 2>;
 
 /// Collective. The color of each rank: the lowest number that no lower rank with coupled functions
 /// has. The same on all ranks.
-std::vector<int> ColourRanks(
+std::vector<int> ColorRanks(
   const Communicator& ranks, const SparseMatrix& A, const std::vector<int>& owner)
 {
   std::vector<RankPair> coupled;
@@ -124,7 +124,7 @@ std::vector<int> ColourRanks(
       coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
     });
   coupled = ranks.Gather(coupled);
-  std::vector<int> colour(ranks.Size(), 0);
+  std::vector<int> color(ranks.Size(), 0);
   ranks.Together(
     [&]
     {
@@ -135,14 +135,14 @@ std::vector<int> ColourRanks(
         {
           if (pair[1] == rank)
           {
-            isTaken[colour[pair[0]]] = 1;
+            isTaken[color[pair[0]]] = 1;
           }
         }
-        colour[rank] =
+        color[rank] =
           static_cast<int>(std::find(isTaken.begin(), isTaken.end(), 0) - isTaken.begin());
       }
     });
-  return colour;
+  return color;
 }
 
 std::unique_ptr<Smoother> MakeStep(const SparseMatrix& matrix, const BorderStep& step, int threads)
@@ -257,11 +257,11 @@ LevelBorder BorderOfGroups(
         }
       }
     });
-  const std::vector<int> colour = ColourRanks(ranks, A, owner);
-  border.steps = [own, colour, rank = ranks.Rank(), threads](const SparseMatrix& matrix)
+  const std::vector<int> color = ColorRanks(ranks, A, owner);
+  border.steps = [own, color, rank = ranks.Rank(), threads](const SparseMatrix& matrix)
   {
-    std::vector<BorderStep> steps(1 + *std::max_element(colour.begin(), colour.end()));
-    BorderStep& step = steps[colour[rank]];
+    std::vector<BorderStep> steps(1 + *std::max_element(color.begin(), color.end()));
+    BorderStep& step = steps[color[rank]];
     const SparseMatrix rows = PartOf(matrix, own);
     step.single = InWhole(OrderInBlocks(rows), own);
     step.patches = InWhole(GroupByCoupling(rows, threads), own);
@@ -276,20 +276,20 @@ RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
   : ranks_(ranks), rows_(rows), coarse_(coarse), threads_(threads),
     border_(std::move(border.functions))
 {
-  std::vector<RankNeighbour> neighbours;
+  std::vector<RankNeighbor> neighbors;
   ranks.Together(
     [&]
     {
-      neighbours = numbering.neighbours;
-      for (RankNeighbour& neighbour : neighbours)
+      neighbors = numbering.neighbors;
+      for (RankNeighbor& neighbor : neighbors)
       {
-        Renumber(border_, neighbour.functions);
+        Renumber(border_, neighbor.functions);
       }
       const auto ghosts = static_cast<Index>(
         std::lower_bound(border_.begin(), border_.end(), numbering.ghosts) - border_.begin());
-      borderRows_ = std::make_unique<RankRows>(ranks, ghosts, neighbours);
+      borderRows_ = std::make_unique<RankRows>(ranks, ghosts, neighbors);
     });
-  matrix_ = WholeMatrix(ranks, A, border_, numbering, neighbours);
+  matrix_ = WholeMatrix(ranks, A, border_, numbering, neighbors);
   ranks.Together(
     [&]
     {

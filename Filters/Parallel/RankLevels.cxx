@@ -21,12 +21,12 @@ RankLevels::RankLevels(const RankSpace& space, const RankHats* hats) : space_(sp
       if (hats)
       {
         rows_.emplace_back(
-          space.Ranks(), hats->Numbering().ghosts, hats->Numbering().neighbours, true);
+          space.Ranks(), hats->Numbering().ghosts, hats->Numbering().neighbors, true);
       }
       const std::vector<LevelNumbering>& numberings = space.Numberings();
       for (std::size_t l = 0; l < numberings.size(); ++l)
       {
-        rows_.emplace_back(space.Ranks(), numberings[l].ghosts, numberings[l].neighbours);
+        rows_.emplace_back(space.Ranks(), numberings[l].ghosts, numberings[l].neighbors);
         parts_.push_back(PatchesByRanks(space.Own().Functions().levels[l], numberings[l]));
       }
       integrals_ = this->Own().Integrals();

@@ -40,21 +40,21 @@ void ForColumns(Block<Real> x, Body&& body)
 
 } // namespace
 
-RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbour> neighbours,
+RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbor> neighbors,
   bool arePartsProlonged)
   : ranks_(ranks), ghosts_(ghosts), arePartsProlonged_(arePartsProlonged),
-    neighbours_(std::move(neighbours))
+    neighbors_(std::move(neighbors))
 {
   std::vector<char> hasOwner(ghosts_, 0);
   std::size_t rows = 0;
-  for (const RankNeighbour& neighbour : neighbours_)
+  for (const RankNeighbor& neighbor : neighbors_)
   {
-    shared_.push_back(neighbour.functions);
+    shared_.push_back(neighbor.functions);
     ownOfShared_.emplace_back();
     ghostsOfShared_.emplace_back();
-    lower_ += neighbour.rank < ranks_.Rank() ? 1 : 0;
-    rows += neighbour.functions.size();
-    for (const Index row : neighbour.functions)
+    lower_ += neighbor.rank < ranks_.Rank() ? 1 : 0;
+    rows += neighbor.functions.size();
+    for (const Index row : neighbor.functions)
     {
       all_.push_back(row);
       if (row >= ghosts_)
@@ -74,7 +74,7 @@ RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeig
   sent_.resize(rows * Bytes);
   received_.resize(rows * Bytes);
   own_.resize(all_.size() * Bytes);
-  requests_.reserve(2 * neighbours_.size());
+  requests_.reserve(2 * neighbors_.size());
 }
 
 MultiVector RankRows::Gather(const Eigen::RowVectorXd& numbers) const
@@ -92,18 +92,18 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
   ranks_.RequireAll();
   requests_.clear();
   Real* place = reinterpret_cast<Real*>(received_.data());
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  for (std::size_t k = 0; k < neighbors_.size(); ++k)
   {
     if (in[k].empty())
     {
       continue;
     }
     auto rows = NextRows(place, in[k], x.cols());
-    MPI_Irecv(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbours_[k].rank, Tag,
+    MPI_Irecv(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbors_[k].rank, Tag,
       ranks_.Handle(), &requests_.emplace_back());
   }
   place = reinterpret_cast<Real*>(sent_.data());
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  for (std::size_t k = 0; k < neighbors_.size(); ++k)
   {
     if (out[k].empty()) // the neighbor expects no message
     {
@@ -114,7 +114,7 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
     {
       rows.row(row) = x.row(out[k][row]);
     }
-    MPI_Isend(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbours_[k].rank, Tag,
+    MPI_Isend(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbors_[k].rank, Tag,
       ranks_.Handle(), &requests_.emplace_back());
   }
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
@@ -155,7 +155,7 @@ void RankRows::SumParts(Block<Real> x) const
     }
   };
   place = reinterpret_cast<Real*>(received_.data());
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  for (std::size_t k = 0; k < neighbors_.size(); ++k)
   {
     if (k == lower_)
     {
@@ -163,7 +163,7 @@ void RankRows::SumParts(Block<Real> x) const
     }
     add(shared_[k], NextRows(place, shared_[k], x.cols()));
   }
-  if (lower_ == neighbours_.size())
+  if (lower_ == neighbors_.size())
   {
     add(all_, own);
   }

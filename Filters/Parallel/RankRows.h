@@ -17,10 +17,10 @@ class RankRows : public DistributedRows
 {
 public:
   /// @param ghosts     number of rows that belong to other ranks, which come first
-  /// @param neighbours  for each other rank, in ascending order: the shared rows, in the same order
+  /// @param neighbors  for each other rank, in ascending order: the shared rows, in the same order
   ///   on both ranks
   /// @param arePartsProlonged  see DistributedRows
-  RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbour> neighbours,
+  RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeighbor> neighbors,
     bool arePartsProlonged = false);
 
   Index Ghosts() const override { return ghosts_; }
@@ -50,7 +50,7 @@ private:
   Communicator ranks_;
   Index ghosts_;
   bool arePartsProlonged_;
-  std::vector<RankNeighbour> neighbours_;
+  std::vector<RankNeighbor> neighbors_;
   std::size_t lower_ = 0;  // number of neighbors with lower rank
   Rows shared_;            // shared with each neighbor
   Rows ownOfShared_;       // shared rows that belong to this rank

@@ -101,9 +101,9 @@ void ForBlocksNear(
   ForBlocksOf(box,
     [&](const CellIndex& block)
     {
-      const Vec3 centre = side * (Vec3(block[0], block[1], block[2]) + Vec3::Constant(0.5));
+      const Vec3 center = side * (Vec3(block[0], block[1], block[2]) + Vec3::Constant(0.5));
       if (MeetsBox(
-            { corner[0] - centre, corner[1] - centre, corner[2] - centre }, 0.5 * side + margin))
+            { corner[0] - center, corner[1] - center, corner[2] - center }, 0.5 * side + margin))
       {
         body(MortonEncode(block));
       }

@@ -214,7 +214,7 @@ double CholmodSecondsPerChange(const TriangleMesh& mesh)
   const CotangentSystem hats = AssembleCotangents(mesh);
   const SymmetricMatrix A = Combine(hats, 500.0 / SurfaceArea(mesh));
   Cholmod cholmod;
-  cholmod.Analyse(A);
+  cholmod.Analyze(A);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Ones(A.rows(), 3);
   double least = std::numeric_limits<double>::infinity();
   for (int change = 0; change < 6; ++change)

@@ -119,8 +119,8 @@ public:
     // The stiffness alone has the constants in its null space.
     const double shift = 1e-9 / SurfaceArea(mesh);
     const SymmetricMatrix poisson = shift * hats_.mass + hats_.stiffness;
-    heat_.Analyse(heat);
-    poisson_.AnalyseAs(heat_);
+    heat_.Analyze(heat);
+    poisson_.AnalyzeAs(heat_);
     heat_.Factor(heat);
     poisson_.Factor(poisson);
   }

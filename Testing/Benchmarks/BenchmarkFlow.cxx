@@ -220,7 +220,7 @@ struct HatStep
 struct PeerSteps
 {
   double assembly = 0.0;
-  double analyse = 0.0;
+  double analyze = 0.0;
   double factor = 0.0;
   double solve = 0.0; // three columns
   double amgSetup = 0.0;
@@ -277,8 +277,8 @@ PeerSteps MeasurePeers(const TriangleMesh& moved, double timeStep, double error)
   SetBlasThreads(Threads);
   Cholmod cholmod;
   const Stopwatch watch;
-  cholmod.Analyse(step.A);
-  times.analyse = watch.Seconds();
+  cholmod.Analyze(step.A);
+  times.analyze = watch.Seconds();
   times.factor = SecondsOf([&] { cholmod.Factor(step.A); });
   const Eigen::MatrixXd b = step.hats.mass * step.points;
   Eigen::MatrixXd exact;
@@ -362,7 +362,7 @@ void MeasureDistances()
   TriangleMesh hats = mesh;
   SetBlasThreads(Threads);
   Cholmod cholmod;
-  cholmod.Analyse(HatStep(mesh, timeStep).A);
+  cholmod.Analyze(HatStep(mesh, timeStep).A);
   std::printf("\nDistance to the flow on hats, %s, %zu vertices, depth %d, in roots of the area "
               "[T Figure 5.4]\n",
     Compared.file, mesh.points.size(), Compared.depth);

@@ -1,6 +1,6 @@
 // The kernels one by one, on the rocker arm at depth 7: google-benchmark, its options apply.
 // Arguments: threads; columns where there are two.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Integrals/LoadVector.h"
 #include "SetupCost.h"
 

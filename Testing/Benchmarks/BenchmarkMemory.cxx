@@ -1,5 +1,5 @@
 // Compares the estimate of memory with the real peak, and the expected sizes with the real sizes.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "SetupCost.h"

@@ -141,7 +141,7 @@ Peaks MeasurePeaks(const NamedMesh& mesh, int depth)
         ResidentBytes() - entry * 0.5 * static_cast<double>(A.nonZeros() + A.rows());
       ResetPeak();
       Cholmod cholmod;
-      cholmod.Analyse(A);
+      cholmod.Analyze(A);
       cholmod.Factor(A);
       cholmod.Solve(Eigen::MatrixXd::Ones(A.rows(), 1));
       return PeakBytes() - before;
@@ -151,7 +151,7 @@ Peaks MeasurePeaks(const NamedMesh& mesh, int depth)
 
 double SetupSeconds(const CholmodTimes& cholmod)
 {
-  return cholmod.analyse + cholmod.factor;
+  return cholmod.analyze + cholmod.factor;
 }
 
 void PrintPeerRatios(

@@ -2,7 +2,7 @@
 // surface.
 #include "AlgebraicMultigrid.h"
 #include "Base/Parallel.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Hierarchy.h"
 #include "Measure.h"
 #include "Meshes.h"
@@ -75,7 +75,7 @@ struct Convergence
 GridProblem Build(const TriangleMesh& mesh, int depth)
 {
   GridProblem grid = SetUp(mesh, depth, Threads);
-  ChooseColours(grid, 1);
+  ChooseColors(grid, 1);
   return grid;
 }
 
@@ -164,7 +164,7 @@ int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double we
   solve.measure = SolveOptions::Measure::Residual;
   const Multigrid cycle = hybrid.BuildCycle(weight, options);
   MultiVector b;
-  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
+  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColorsAtPoints(mesh, 1)), b);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   return Iterations(SolveCycles(OperatorOf(cycle), CycleOf(cycle), b, x, solve));
 }
@@ -179,7 +179,7 @@ HatSolve Solve(const TriangleMesh& mesh, const HybridProblem& hybrid, double wei
   options.grid.threads = 1; // as the peers
   const Multigrid cycle = hybrid.BuildCycle(weight, options);
   MultiVector b;
-  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
+  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColorsAtPoints(mesh, 1)), b);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   const Stopwatch watch;
   const int iterations =
@@ -192,7 +192,7 @@ HatIterations RunHats(
 {
   HatIterations result;
   HatProblem problem = AssembleProblem(mesh, weight);
-  ChooseColours(mesh, problem, 1);
+  ChooseColors(mesh, problem, 1);
   result.boomerAmg = Solve(*MakeBoomerAmg(problem.A), problem);
   result.gamg = Solve(*MakeGamg(problem.A), problem);
   result.hybrid = Solve(mesh, hybrid, weight);

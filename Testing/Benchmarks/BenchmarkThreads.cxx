@@ -1,6 +1,6 @@
 // The gain by more threads: seconds of every step on 1, 2, 4, ... threads, up to the number of
 // processors. The gain in reading memory is measured for comparison.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Measure.h"
 #include "Problems.h"
 #include "SetupCost.h"
@@ -94,8 +94,8 @@ void MeasurePoisson(const TriangleMesh& mesh, int depth, int threads, Steps& ste
     steps.Add("set-up, all of these", setup.Seconds());
   }
   GridProblem grid = SetUp(mesh, depth, threads);
-  ChooseColours(grid, 1);
-  const Field field{ FieldAssociation::Points, ColoursAtPoints(mesh, 1) };
+  ChooseColors(grid, 1);
+  const Field field{ FieldAssociation::Points, ColorsAtPoints(mesh, 1) };
   const MultiVector b = grid.gradients;
   MultiVector x;
   for (int k = 0; k < Repetitions; ++k)
@@ -157,7 +157,7 @@ void MeasureHats(const TriangleMesh& mesh, int depth, int threads, Steps& steps)
     std::unique_ptr<Multigrid> multigrid;
     steps.Time("hats, hierarchy",
       [&] { multigrid = std::make_unique<Multigrid>(hats->BuildCycle(ScreeningWeight, options)); });
-    const MultiVector b = hats->ToFunctions(ColoursAtPoints(mesh, 1));
+    const MultiVector b = hats->ToFunctions(ColorsAtPoints(mesh, 1));
     MultiVector x;
     steps.Time("hats, one cycle", [&] { multigrid->Precondition(b, x); });
   }

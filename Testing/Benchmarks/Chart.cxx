@@ -64,11 +64,11 @@ void WriteFigure(const Figure& figure, const std::string& folder)
 }
 
 void WriteSurfaces(
-  const std::string& name, const std::vector<ColouredSurface>& surfaces, const std::string& folder)
+  const std::string& name, const std::vector<ColoredSurface>& surfaces, const std::string& folder)
 {
   for (std::size_t k = 0; k < surfaces.size(); ++k)
   {
-    const ColouredSurface& surface = surfaces[k];
+    const ColoredSurface& surface = surfaces[k];
     std::ofstream file = Open(folder + "/" + name + "-" + std::to_string(k) + ".vtk");
     file << "# vtk DataFile Version 3.0\n"
          << surface.largest << ' ' << surface.title << "\nASCII\nDATASET POLYDATA\nPOINTS "

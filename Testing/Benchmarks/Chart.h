@@ -47,7 +47,7 @@ Curve CountedCurve(
   const std::string& name, Curve::Kind kind, const std::vector<double>& y, int first = 0);
 
 /// A surface colored by one value per point between 0 and `largest`.
-struct ColouredSurface
+struct ColoredSurface
 {
   std::string title;
   TriangleMesh mesh;
@@ -62,7 +62,7 @@ void WriteFigure(const Figure& figure, const std::string& folder);
 /// <folder>/<name>-<k>.vtk, legacy format, with the point array `value`; title and largest value
 /// stand in its title line.
 void WriteSurfaces(
-  const std::string& name, const std::vector<ColouredSurface>& surfaces, const std::string& folder);
+  const std::string& name, const std::vector<ColoredSurface>& surfaces, const std::string& folder);
 
 } // namespace gridfem::benchmarks
 

@@ -193,10 +193,10 @@ public:
   void Begin(double timeStep) override
   {
     MatrixFlow::Begin(timeStep);
-    if (!isAnalysed_)
+    if (!isAnalyzed_)
     {
-      cholmod_.Analyse(A_);
-      isAnalysed_ = true;
+      cholmod_.Analyze(A_);
+      isAnalyzed_ = true;
     }
   }
 
@@ -212,7 +212,7 @@ public:
 
 private:
   Cholmod cholmod_;
-  bool isAnalysed_ = false;
+  bool isAnalyzed_ = false;
   int threads_;
 };
 
@@ -229,12 +229,12 @@ public:
     this->Update();
     const auto amg = MakeBoomerAmg(A_);
     amg->Setup();
-    const Eigen::MatrixXd centred = x_.rowwise() - x_.colwise().mean();
+    const Eigen::MatrixXd centered = x_.rowwise() - x_.colwise().mean();
     const Eigen::MatrixXd residual = -timeStep_ * (system_->Stiffness() * x_);
     int iterations = 0;
     for (int c = 0; c < 3; ++c)
     {
-      const double wanted = tolerance_ * (system_->Mass() * centred.col(c)).norm();
+      const double wanted = tolerance_ * (system_->Mass() * centered.col(c)).norm();
       Eigen::VectorXd change;
       iterations = std::max(iterations,
         amg->Solve(residual.col(c), change, std::min(0.5, wanted / residual.col(c).norm()), 100));

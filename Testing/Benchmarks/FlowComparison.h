@@ -14,10 +14,10 @@ namespace gridfem::benchmarks
 
 struct FlowComparisonOptions
 {
-  const char* file = "brain_mni_LR.ply"; // in millimetres
+  const char* file = "brain_mni_LR.ply"; // in millimeters
   int subdivisions = 1;
   int depth = 7;
-  /// Squared millimetres. The thesis' 50, for it steps by δ / 2.
+  /// Squared millimeters. The thesis' 50, for it steps by δ / 2.
   double time = 25.0;
   double budget = 12.0; // processor seconds of each contestant
   int truthSteps = 24;  // before extrapolation; even
@@ -28,7 +28,7 @@ struct FlowComparisonOptions
 };
 
 /// The result of one contestant with its budget. Errors are distances of points from where a truth
-/// has them: RMS over the points, in millimetres.
+/// has them: RMS over the points, in millimeters.
 struct BudgetedFlow
 {
   std::string space;

@@ -17,7 +17,7 @@ PatchOrder RowOrder(Index rows)
   order.dof.unknown.resize(rows);
   std::iota(order.dof.unknown.begin(), order.dof.unknown.end(), 0);
   order.blockBegin = { 0, rows };
-  order.colourBegin = { 0, 1 };
+  order.colorBegin = { 0, 1 };
   return order;
 }
 

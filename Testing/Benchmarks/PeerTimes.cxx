@@ -1,5 +1,5 @@
 #include "PeerTimes.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"
@@ -40,9 +40,9 @@ public:
   explicit Contest(const PeerJob& job) : job_(job), mesh_(job.mesh.mesh)
   {
     hats_ = AssembleProblem(mesh_);
-    ChooseColours(mesh_, hats_, Columns);
+    ChooseColors(mesh_, hats_, Columns);
     times_.vertices = static_cast<double>(mesh_.points.size());
-    points_.values = Colours(mesh_.points, Vec3::Zero(), 1.0, Columns);
+    points_.values = Colors(mesh_.points, Vec3::Zero(), 1.0, Columns);
   }
 
   PeerTimes Run()
@@ -87,7 +87,7 @@ private:
   {
     SetBlasThreads(threads);
     Cholmod cholmod;
-    Time(times.analyse, [&] { cholmod.Analyse(hats_.A); });
+    Time(times.analyze, [&] { cholmod.Analyze(hats_.A); });
     Time(times.factor, [&] { cholmod.Factor(hats_.A); });
     Time(times.solve, [&] { cholmod.Solve(hats_.b.leftCols(1)); });
     Time(times.solve3, [&] { cholmod.Solve(hats_.b); });
@@ -109,7 +109,7 @@ private:
     };
     Time(times.load, [&] { load({ points_.association, points_.values.leftCols(1) }); });
     Time(times.load3, [&] { load(points_); });
-    ChooseColours(grid, Columns);
+    ChooseColors(grid, Columns);
     if (times.iterations < 0.0)
     {
       times.iterations = this->GridIterations(grid, 1);
@@ -198,7 +198,7 @@ void PrintAmg(const Table& table, const char* name, const PeerTimes& times, cons
 void PrintCholmod(
   const Table& table, const char* name, const PeerTimes& times, const CholmodTimes& cholmod)
 {
-  const double setup = cholmod.analyse + cholmod.factor;
+  const double setup = cholmod.analyze + cholmod.factor;
   table.Row({ name, Text("%.3f", setup), Text("%.3f", cholmod.solve), "",
     Text("%.3f", cholmod.solve3), Text("%.3f", times.assembly + times.load + setup + cholmod.solve),
     Text("%.0f", times.vertices) });

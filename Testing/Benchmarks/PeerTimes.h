@@ -44,7 +44,7 @@ struct AmgTimes
 
 struct CholmodTimes
 {
-  double analyse = 0.0;
+  double analyze = 0.0;
   double factor = 0.0;
   double solve = 0.0;  // one column
   double solve3 = 0.0; // three columns in one call

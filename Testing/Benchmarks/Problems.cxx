@@ -37,7 +37,7 @@ std::vector<Vec3> Corners(const GridFunctions& space)
 
 struct Box
 {
-  Vec3 centre;
+  Vec3 center;
   double side;
 };
 
@@ -64,12 +64,12 @@ SpaceOptions OptionsOf(int depth, int threads, FunctionSupport support)
 
 } // namespace
 
-MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double side, int columns)
+MultiVector Colors(const std::vector<Vec3>& points, const Vec3& center, double side, int columns)
 {
   MultiVector values(static_cast<Id>(points.size()), columns);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec3 p = (points[i] - centre) / side;
+    const Vec3 p = (points[i] - center) / side;
     for (int c = 0; c < columns; ++c)
     {
       values(static_cast<Id>(i), c) = std::sin(6.0 * p[c % 3] + 4.0 * p[(c + 1) % 3] + c);
@@ -94,14 +94,14 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
   return problem;
 }
 
-void ChooseColours(GridProblem& problem, int columns)
+void ChooseColors(GridProblem& problem, int columns)
 {
   const GridFunctions& space = problem.space;
   const double half = 0.5 * std::pow(2.0, space.Finest().depth);
-  const Vec3 centre = space.GetGrid().ToWorld(Vec3(half, half, half));
+  const Vec3 center = space.GetGrid().ToWorld(Vec3(half, half, half));
   const double side =
     (space.GetGrid().ToWorld(Vec3(2 * half, 0, 0)) - space.GetGrid().ToWorld(Vec3(0, 0, 0))).norm();
-  problem.exact = Colours(Corners(space), centre, side, columns);
+  problem.exact = Colors(Corners(space), center, side, columns);
   problem.mass = testing::MassMatrix(space, problem.system);
   Multiply(problem.mass, problem.exact, problem.values);
   Multiply(testing::StiffnessMatrix(space, problem.system), problem.exact, problem.gradients);
@@ -136,9 +136,9 @@ HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight)
   return problem;
 }
 
-void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns)
+void ChooseColors(const TriangleMesh& mesh, HatProblem& problem, int columns)
 {
-  problem.exact = ToRows(problem.hats, ColoursAtPoints(mesh, columns));
+  problem.exact = ToRows(problem.hats, ColorsAtPoints(mesh, columns));
   problem.b = problem.A * problem.exact;
 }
 
@@ -150,10 +150,10 @@ double HatProblem::Error(const Eigen::MatrixXd& x) const
     error, Eigen::MatrixXd(hats.mass * error), wanted, Eigen::MatrixXd(hats.mass * wanted));
 }
 
-MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns)
+MultiVector ColorsAtPoints(const TriangleMesh& mesh, int columns)
 {
   const Box box = BoxOf(mesh);
-  return Colours(mesh.points, box.centre, box.side, columns);
+  return Colors(mesh.points, box.center, box.side, columns);
 }
 
 HybridProblem SetUpHybrid(

@@ -19,7 +19,7 @@ constexpr double ScreeningWeight = 0.01;
 
 /// Smooth values in [-1, 1], a wave or so along the longest side, at points in world units.
 /// @return rows = points
-MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double side, int columns);
+MultiVector Colors(const std::vector<Vec3>& points, const Vec3& center, double side, int columns);
 
 struct GridProblem
 {
@@ -46,7 +46,7 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads,
   double screeningWeight = ScreeningWeight, Index coarsestSize = 256);
 
 /// Chooses the exact solution; not part of the set-up.
-void ChooseColours(GridProblem& problem, int columns);
+void ChooseColors(GridProblem& problem, int columns);
 
 struct HatProblem
 {
@@ -60,10 +60,10 @@ struct HatProblem
 
 /// The matrix alone, which is the peers' "assembly" in every table.
 HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight = ScreeningWeight);
-void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns);
+void ChooseColors(const TriangleMesh& mesh, HatProblem& problem, int columns);
 
 /// Colors at the points of a mesh, centered and scaled by its bounding box.
-MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns);
+MultiVector ColorsAtPoints(const TriangleMesh& mesh, int columns);
 
 /// Hat functions of the mesh above the levels of a grid: the same equation as HatProblem's.
 struct HybridProblem

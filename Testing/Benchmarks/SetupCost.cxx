@@ -1,5 +1,5 @@
 #include "SetupCost.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 
 #include "Base/LargeMemory.h"
 #include "Measure.h"

@@ -1,5 +1,5 @@
 #include "SpectrumJobs.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"

@@ -29,7 +29,7 @@ WIDTH, HEIGHT = 410, 325  # of a panel, pixels
 SMALLEST = 1e-16  # on logarithmic axes
 
 # Ours is blue, the thesis' smoother orange, peers have the other hues.
-COLOURS = {
+COLORS = {
     "ours": [(31, 90, 180), (90, 170, 235), (20, 40, 110), (0, 150, 160), (120, 110, 220)],
     "thesis": [(230, 110, 0), (245, 180, 60), (150, 70, 0), (205, 150, 110)],
     "peer": [(200, 30, 40), (130, 130, 130), (40, 150, 60), (150, 60, 160), (110, 80, 50)],
@@ -60,7 +60,7 @@ def add_curve(chart, name, kind, points, number):
         table.AddColumn(column)
     plot = chart.AddPlot(vtkChart.LINE)
     plot.SetInputData(table, 0, 1)
-    plot.SetColor(*COLOURS[kind][number % len(COLOURS[kind])], 255)
+    plot.SetColor(*COLORS[kind][number % len(COLORS[kind])], 255)
     plot.SetWidth(2.5 if kind == "ours" else 1.7)
     plot.GetPen().SetLineType(vtkPen.DASH_LINE if kind == "reference" else vtkPen.SOLID_LINE)
 
@@ -161,19 +161,19 @@ def surface_renderer(path):
         largest, title = file.readline().strip().split(" ", 1)
     reader = vtkPolyDataReader()
     reader.SetFileName(str(path))
-    colours = vtkLookupTable()
-    colours.SetNumberOfTableValues(12)  # steps: contours are seen, and the picture stays small
-    colours.SetHueRange(0.62, 0.0)
-    colours.SetRange(0.0, float(largest))
+    colors = vtkLookupTable()
+    colors.SetNumberOfTableValues(12)  # steps: contours are seen, and the picture stays small
+    colors.SetHueRange(0.62, 0.0)
+    colors.SetRange(0.0, float(largest))
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(reader.GetOutputPort())
-    mapper.SetLookupTable(colours)
+    mapper.SetLookupTable(colors)
     mapper.UseLookupTableScalarRangeOn()
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().LightingOff()
     bar = vtkScalarBarActor()
-    bar.SetLookupTable(colours)
+    bar.SetLookupTable(colors)
     bar.SetTitle(title + "\n")
     bar.SetNumberOfLabels(3)
     bar.SetLabelFormat("%.1e")

@@ -357,17 +357,17 @@ void RequireNoPlaceOfHats(Choice& choice, const RandomSurface& surface, Outcome&
   const double before = EnergyOf(*here.space, ofHere, HatsWith(here, v));
   const double after = EnergyOf(*there.space, ofThere, HatsWith(there, v));
   const double allowed = 1e-11 + 10.0 * rounding;
-  const double cancelled =
+  const double canceled =
     1e-14 * TraceOf(here.space->Matrix(0, ofHere, 1.0)) * v.cwiseAbs2().maxCoeff();
   outcome.Require(
-    std::abs(after - before) <= allowed * before + cancelled, "the place changes energies");
+    std::abs(after - before) <= allowed * before + canceled, "the place changes energies");
 
   const Solved first = Solve(here, weight, f);
   const Solved second = Solve(there, weight, f);
   if (first.converged && second.converged)
   {
     const MultiVector difference = first.coefficients - HatsWith(here, second.atPoints);
-    const double limit = std::pow(1e-7 + allowed, 2) * first.energy + cancelled;
+    const double limit = std::pow(1e-7 + allowed, 2) * first.energy + canceled;
     outcome.Require(
       EnergyOf(*here.space, ofHere, difference) <= limit, "the place changes a solution on hats");
   }

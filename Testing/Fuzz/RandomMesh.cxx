@@ -115,20 +115,20 @@ TriangleMesh Slivers(Choice& choice)
   return mesh;
 }
 
-TriangleMesh Octahedron(double radius, const Vec3& centre)
+TriangleMesh Octahedron(double radius, const Vec3& center)
 {
-  return Transform(GeodesicSphere(1, radius), Vec3(0, 0, 1), 0.0, 1.0, centre);
+  return Transform(GeodesicSphere(1, radius), Vec3(0, 0, 1), 0.0, 1.0, center);
 }
 
 /// Makes a chain of octahedra that touch only at corners.
 TriangleMesh Octahedra(Choice& choice)
 {
   TriangleMesh mesh = Octahedron(1.0, Vec3::Zero());
-  Vec3 centre = Vec3::Zero();
+  Vec3 center = Vec3::Zero();
   for (Id k = choice.Integer(1, 5); k > 0; --k)
   {
-    centre[choice.Integer(0, 2)] += 2.0;
-    mesh = Join(mesh, Octahedron(1.0, centre));
+    center[choice.Integer(0, 2)] += 2.0;
+    mesh = Join(mesh, Octahedron(1.0, center));
   }
   return mesh;
 }

@@ -102,7 +102,7 @@ MultigridOptions RandomCycle(Choice& choice)
   options.preSweeps = options.postSweeps = static_cast<int>(choice.Of({ 1, 1, 2, 0 }));
   options.precision =
     choice.Of({ FactorPrecision::Mixed, FactorPrecision::Single, FactorPrecision::Double });
-  options.sweepsPerSynchronisation = static_cast<int>(choice.Integer(1, 3));
+  options.sweepsPerSynchronization = static_cast<int>(choice.Integer(1, 3));
   options.threads = static_cast<int>(choice.Of({ 1, 1, 2 }));
   return options;
 }

@@ -76,8 +76,8 @@ void Stitch(Choice& choice, RandomSurface& surface, Outcome& outcome)
   const StitchedColors stitched =
     StitchColors(*surface.space, mesh, cut, colors, options, details.get());
   outcome.Add(stitched.report);
-  outcome.RequireFinite(stitched.values, "a stitched colour");
-  outcome.Require(stitched.values.rows() == colors.values.rows(), "colours are missing");
+  outcome.RequireFinite(stitched.values, "a stitched color");
+  outcome.Require(stitched.values.rows() == colors.values.rows(), "colors are missing");
 }
 
 void Flow(Choice& choice, RandomSurface& surface, Outcome& outcome)

@@ -23,11 +23,11 @@ TriangleMesh NonManifoldSoup()
   for (int t = 0; t < 60; ++t)
   {
     const auto first = static_cast<Id>(soup.points.size());
-    const Vec3 centre(position(random), position(random), position(random));
+    const Vec3 center(position(random), position(random), position(random));
     for (int corner = 0; corner < 3; ++corner)
     {
       soup.points.push_back(
-        centre + 0.3 * Vec3(position(random), position(random), position(random)));
+        center + 0.3 * Vec3(position(random), position(random), position(random)));
     }
     soup.triangles.push_back({ first, first + 1, first + 2 });
   }

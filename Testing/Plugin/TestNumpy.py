@@ -220,7 +220,7 @@ class Numpy(unittest.TestCase):
         for part, expected in zip(parts, (slope, 0, 0)):
             numpy.testing.assert_allclose(part, expected + 0 * slope, atol=0.05)
 
-    def test_scans_of_one_colour(self):
+    def test_scans_of_one_color(self):
         labels = (self.points[:, 2] > 0.01).astype(int)
         colors = numpy.where(labels[:, None] == 1, [200.0, 100.0, 50.0], [100.0, 50.0, 100.0])
         stitched = gridfem.stitch(*self.mesh, colors, labels, **OPTIONS)

@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_Hybrid_h
 #define GridFEM_Testing_Hybrid_h
 
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Equations/Poisson.h"
 #include "Spaces/HatSpace.h"
 

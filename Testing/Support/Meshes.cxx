@@ -76,7 +76,7 @@ TriangleMesh Revolve(const std::vector<std::pair<double, double>>& profile, int 
 
 } // namespace
 
-TriangleMesh LatLongSphere(int longitudes, int latitudes, double radius, const Vec3& centre)
+TriangleMesh LatLongSphere(int longitudes, int latitudes, double radius, const Vec3& center)
 {
   TriangleMesh mesh;
   for (int j = 1; j <= latitudes; ++j)
@@ -85,14 +85,14 @@ TriangleMesh LatLongSphere(int longitudes, int latitudes, double radius, const V
     for (int i = 0; i < longitudes; ++i)
     {
       const double phi = 2 * Pi * i / longitudes;
-      mesh.points.push_back(centre + radius * Vec3(std::sin(theta) * std::cos(phi),
+      mesh.points.push_back(center + radius * Vec3(std::sin(theta) * std::cos(phi),
                                                 std::sin(theta) * std::sin(phi), std::cos(theta)));
     }
   }
   const Id north = static_cast<Id>(mesh.points.size());
   const Id south = north + 1;
-  mesh.points.push_back(centre + Vec3(0, 0, radius));
-  mesh.points.push_back(centre - Vec3(0, 0, radius));
+  mesh.points.push_back(center + Vec3(0, 0, radius));
+  mesh.points.push_back(center - Vec3(0, 0, radius));
 
   const auto at = [=](int ring, int i)
   { return static_cast<Id>(ring) * longitudes + i % longitudes; };
@@ -210,7 +210,7 @@ TriangleMesh TrefoilTube(int along, int around, double tubeRadius)
     const double t = 2 * Pi * i / along;
     const double c2 = std::cos(2 * t), s2 = std::sin(2 * t);
     const double c3 = std::cos(3 * t), s3 = std::sin(3 * t);
-    const Vec3 centre((2 + c3) * c2, (2 + c3) * s2, s3);
+    const Vec3 center((2 + c3) * c2, (2 + c3) * s2, s3);
     const Vec3 tangent(-3 * s3 * c2 - 2 * (2 + c3) * s2, -3 * s3 * s2 + 2 * (2 + c3) * c2, 3 * c3);
     const Vec3 normal(c3 * c2, c3 * s2, s3);
     const Vec3 side = normal.cross(tangent).normalized();
@@ -218,7 +218,7 @@ TriangleMesh TrefoilTube(int along, int around, double tubeRadius)
     {
       const double angle = 2 * Pi * j / around;
       mesh.points.push_back(
-        centre + tubeRadius * (std::cos(angle) * normal + std::sin(angle) * side));
+        center + tubeRadius * (std::cos(angle) * normal + std::sin(angle) * side));
     }
   }
   ConnectClosedGrid(mesh, along, around);

@@ -13,7 +13,7 @@ namespace gridfem::testing
 /// two poles. With 140 x 69 points, radius 0.5 and center (.5,.5,.5), it is the sphere of thesis
 /// Table 4.3.
 TriangleMesh LatLongSphere(
-  int longitudes, int latitudes, double radius = 0.5, const Vec3& centre = { 0.5, 0.5, 0.5 });
+  int longitudes, int latitudes, double radius = 0.5, const Vec3& center = { 0.5, 0.5, 0.5 });
 
 /// Octahedron projected to a sphere around 0, with every edge cut into `subdivisions` = n parts: 8
 /// n² triangles and 4 n² + 2 points.

@@ -4,7 +4,7 @@
 #define GridFEM_Testing_SpectrumChecks_h
 
 #include "Dense.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Largest.h"
 #include "Spectrum/Spectrum.h"
 
@@ -20,13 +20,13 @@ namespace gridfem::testing
 constexpr double Pi = 3.14159265358979323846;
 
 /// Discretizes with an exact quadrature rule.
-inline Discretisation DiscretiseExactly(
+inline Discretization DiscretizeExactly(
   const TriangleMesh& mesh, int depth, bool connectivityAware = true)
 {
-  return Discretise(mesh, depth, 6, connectivityAware);
+  return Discretize(mesh, depth, 6, connectivityAware);
 }
 
-inline Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e-8, int threads = 0)
+inline Spectrum Solve(const Discretization& on, int modes, double tolerance = 1e-8, int threads = 0)
 {
   SpectrumOptions options;
   options.numberOfModes = modes;
@@ -36,7 +36,7 @@ inline Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e
 }
 
 /// Returns eigenvalues in world units.
-inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum& spectrum)
+inline std::vector<double> WorldValues(const Discretization& on, const Spectrum& spectrum)
 {
   std::vector<double> values = spectrum.eigenvalues;
   for (double& value : values)
@@ -47,14 +47,14 @@ inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum&
 }
 
 /// Returns eigenvalues of a dense solver, in grid units.
-inline std::vector<double> DenseReference(const Discretisation& on, int modes)
+inline std::vector<double> DenseReference(const Discretization& on, int modes)
 {
   return DenseEigenvalues(
     StiffnessMatrix(on.space, on.system), MassMatrix(on.space, on.system), modes);
 }
 
 /// Checks the properties of every spectrum: order, M-orthonormality, true residuals, the sign rule.
-inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
+inline void CheckPairs(const Discretization& on, const Spectrum& spectrum)
 {
   const SparseMatrix mass = MassMatrix(on.space, on.system);
   const SparseMatrix stiffness = StiffnessMatrix(on.space, on.system);

@@ -38,9 +38,9 @@ namespace
 using Algorithm = vtkSurfaceFEMAlgorithm;
 
 /// Returns the block that a triangle of the sphere goes to: eight octants in three parts.
-int PartOf(const Vec3& centre)
+int PartOf(const Vec3& center)
 {
-  return centre[0] > 0.1 ? 0 : centre[1] > 0.0 ? 1 : 2;
+  return center[0] > 0.1 ? 0 : center[1] > 0.0 ? 1 : 2;
 }
 
 /// Returns a part of a surface with the point arrays "f" and "origin", the ids of its points in the

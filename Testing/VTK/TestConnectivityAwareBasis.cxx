@@ -40,7 +40,7 @@ vtkSmartPointer<vtkConnectivityAwareBasis> MakeBasis(const TriangleMesh& mesh, i
 
 /// There is one sheet in one layer of cells and two in the next. The second patch of a cell stands
 /// out, and the first has the color of the cell.
-TEST(ConnectivityAwareBasis, PatchesThatShareACellHaveTheirOwnColours)
+TEST(ConnectivityAwareBasis, PatchesThatShareACellHaveTheirOwnColors)
 {
   const TriangleMesh sheet = FlatRectangle(10, 10);
   TriangleMesh sheets;

@@ -179,15 +179,15 @@ TEST(StitchColorsFilter, TakesBytesAndLeavesThemInRange)
 namespace
 {
 
-/// Adds bytes "RGB" and a byte "Grey" of the scans, and an array that is no label: an id for each
+/// Adds bytes "RGB" and a byte "Gray" of the scans, and an array that is no label: an id for each
 /// point.
 void AddBytes(vtkPolyData* data)
 {
   vtkNew<vtkUnsignedCharArray> bytes;
   bytes->SetName("RGB");
   bytes->SetNumberOfComponents(3);
-  vtkNew<vtkUnsignedCharArray> grey;
-  grey->SetName("Grey");
+  vtkNew<vtkUnsignedCharArray> gray;
+  gray->SetName("Gray");
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("Ids");
   for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
@@ -197,11 +197,11 @@ void AddBytes(vtkPolyData* data)
     {
       bytes->InsertNextValue(static_cast<unsigned char>(Seen(ScanAt(p), ColorAt(p, c), c)));
     }
-    grey->InsertNextValue(bytes->GetValue(3 * k));
+    gray->InsertNextValue(bytes->GetValue(3 * k));
     ids->InsertNextValue(k);
   }
   data->GetPointData()->AddArray(bytes);
-  data->GetPointData()->AddArray(grey);
+  data->GetPointData()->AddArray(gray);
   data->GetPointData()->AddArray(ids);
 }
 
@@ -224,7 +224,7 @@ TEST(StitchColorsFilter, TakesTheOnlyColorsAndTheOnlyLabels)
   const auto sphere = ToPolyData(GeodesicSphere(8));
   AddScans(sphere);
   AddBytes(sphere);
-  sphere->GetPointData()->RemoveArray("Grey");
+  sphere->GetPointData()->RemoveArray("Gray");
   vtkNew<vtkPolyData> plain;
   plain->ShallowCopy(sphere);
   vtkNew<vtkConnectivityAwareBasis> basis;    // adds numbers and a color to each cell
@@ -256,7 +256,7 @@ TEST(StitchColorsFilter, TakesNoColorsAndNoIdsForLabels)
   AddScans(data);
   AddBytes(data);
   data->GetPointData()->RemoveArray("Scan");
-  const auto filter = Stitch(data, "Grey", 4);
+  const auto filter = Stitch(data, "Gray", 4);
   filter->SetInputArrayToProcess(1, 0, 0, Points, "None");
   ExpectToBeChosen(filter, "Label Array");
 }
@@ -415,7 +415,7 @@ TEST(StitchColorsFilter, StitchesARealScan)
   vtkPolyData* data = reader->GetOutput();
   vtkDataArray* colors = data->GetPointData()->GetScalars();
   ASSERT_TRUE(colors);
-  Vec3 centre(data->GetCenter());
+  Vec3 center(data->GetCenter());
   vtkNew<vtkDoubleArray> truth;
   vtkNew<vtkDoubleArray> seen;
   vtkNew<vtkIntArray> scan;
@@ -426,7 +426,7 @@ TEST(StitchColorsFilter, StitchesARealScan)
   seen->SetNumberOfComponents(3);
   for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
   {
-    const Vec3 p = Vec3(data->GetPoint(k)) - centre;
+    const Vec3 p = Vec3(data->GetPoint(k)) - center;
     const Index own = ScanAt({ p[0], p[2], p[1] }); // sectors around its height
     scan->InsertNextValue(own);
     for (int c = 0; c < 3; ++c)

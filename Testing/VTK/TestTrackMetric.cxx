@@ -351,11 +351,11 @@ TEST_F(TrackMetric, AScanBends)
   }
   mesh = ReadMesh(path);
   const Bounds bounds = BoundsOf(mesh.points);
-  const Vec3 centre = 0.5 * (bounds.low + bounds.high);
+  const Vec3 center = 0.5 * (bounds.low + bounds.high);
   const double size = 0.5 * (bounds.high - bounds.low).maxCoeff<Eigen::PropagateNaN>();
   for (Vec3& point : mesh.points)
   {
-    point = (point - centre) / size;
+    point = (point - center) / size;
   }
   const auto set = [](vtkScreenedPoisson* filter)
   {

@@ -141,7 +141,7 @@ void LineTracer::RequireNoEnds() const
     if (this->IsOdd(t))
     {
       throw InvalidInput("A line ends, or three lines meet, within the surface near " +
-                         TextOf(this->CentreOf(t)) +
+                         TextOf(this->CenterOf(t)) +
                          ", so it encloses nothing. Close it, or lead it to the border.");
     }
   }
@@ -178,7 +178,7 @@ std::vector<char> LineTracer::Crossed() const
   return crossed;
 }
 
-Vec3 LineTracer::CentreOf(Id triangle) const
+Vec3 LineTracer::CenterOf(Id triangle) const
 {
   const auto& corner = mesh_.triangles[triangle];
   return (mesh_.points[corner[0]] + mesh_.points[corner[1]] + mesh_.points[corner[2]]) / 3.0;

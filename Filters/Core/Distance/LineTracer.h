@@ -70,7 +70,7 @@ private:
     Id line; // the last line that contains it
   };
 
-  Vec3 CentreOf(Id triangle) const;
+  Vec3 CenterOf(Id triangle) const;
   bool IsOdd(Id triangle) const;
   bool IsCrossed(Index edge) const;
   void Cross(Index edge, Id from, Id to);

@@ -24,7 +24,7 @@ double RoundingOf(double low, double high)
 }
 
 /// The mean of the neighbors of a hat. Neighbors without a value do not count.
-Eigen::RowVectorXd MeanOfNeighbours(
+Eigen::RowVectorXd MeanOfNeighbors(
   Index hat, const SparseMatrix& stiffness, const MultiVector& values)
 {
   constexpr double Least = 1e-3; // of the diagonal; obtuse triangles have negative weights
@@ -223,7 +223,7 @@ void LocalCorrection::Relax(
       {
         continue;
       }
-      const Eigen::RowVectorXd mean = MeanOfNeighbours(hat, stiffness, values);
+      const Eigen::RowVectorXd mean = MeanOfNeighbors(hat, stiffness, values);
       const Eigen::RowVectorXd step = mean - values.row(hat);
       isMoving = isMoving || (step.array().abs() > least.row(hats_.component[hat]).array()).any();
       values.row(hat) = mean;

@@ -272,9 +272,9 @@ Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   const ComponentMeans means(
     components.ofFunction, integral, components.count, threads, surface.Distributed(0));
   const MultiVector mean = means.OfFunction(rest);
-  MultiVector centred = rest;
-  means.AddConstants(-mean, centred);
-  return (surface.SquaredNorms(centred, threads).max(0.0) + means.SquaredSpread(mean + constant))
+  MultiVector centered = rest;
+  means.AddConstants(-mean, centered);
+  return (surface.SquaredNorms(centered, threads).max(0.0) + means.SquaredSpread(mean + constant))
     .sqrt();
 }
 

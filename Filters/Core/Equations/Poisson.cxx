@@ -106,7 +106,7 @@ Columns EnergyOfMeans(
 /// dropped if the energy of its solution is equally small, relative to the energy of the means.
 /// @param energyOfMeans  the square root of this energy, of every column
 /// @return               whether a column was dropped
-bool DropCancelled(const Multigrid& multigrid, const Projection& project,
+bool DropCanceled(const Multigrid& multigrid, const Projection& project,
   const Columns& energyOfMeans, MultiVector& rest)
 {
   constexpr double Clipping = 1e-9;
@@ -315,7 +315,7 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
   PoissonSolution solution = solve();
   const bool isIterated = options.solve.maximumIterations > 0;
   if (isIterated && !solution.report.converged &&
-      DropCancelled(
+      DropCanceled(
         multigrid, project, EnergyOfMeans(A, lambda, means, values * scale.asDiagonal()), rest))
   {
     solution = solve();

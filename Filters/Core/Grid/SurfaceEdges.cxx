@@ -16,13 +16,13 @@ namespace
 constexpr Id None = -1;
 
 /// The neighbor across an edge of two triangles. Across other edges, `triangle` is None.
-struct Neighbour
+struct Neighbor
 {
   Id triangle = None;
   bool facesAlike = true; // the two triangles run along the edge in opposite directions
 };
 
-using Neighbours = std::vector<std::array<Neighbour, 3>>;
+using Neighbors = std::vector<std::array<Neighbor, 3>>;
 
 void SortByTriangle(std::vector<TriangleEdge>& edges)
 {
@@ -31,10 +31,10 @@ void SortByTriangle(std::vector<TriangleEdge>& edges)
     { return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner; });
 }
 
-Neighbours Classify(
+Neighbors Classify(
   const std::vector<TriangleSide>& sides, std::size_t triangles, SurfaceEdges& edges)
 {
-  Neighbours neighbours(triangles);
+  Neighbors neighbors(triangles);
   ForEachEdge(sides,
     [&](const TriangleSide* side, Id count)
     {
@@ -43,8 +43,8 @@ Neighbours Classify(
         const TriangleEdge& a = side[0].edge;
         const TriangleEdge& b = side[1].edge;
         const bool facesAlike = side[0].isUpwards != side[1].isUpwards;
-        neighbours[a.triangle][a.corner] = { b.triangle, facesAlike };
-        neighbours[b.triangle][b.corner] = { a.triangle, facesAlike };
+        neighbors[a.triangle][a.corner] = { b.triangle, facesAlike };
+        neighbors[b.triangle][b.corner] = { a.triangle, facesAlike };
       }
       else
       {
@@ -53,33 +53,33 @@ Neighbours Classify(
     });
   SortByTriangle(edges.boundary);
   SortByTriangle(edges.branching);
-  return neighbours;
+  return neighbors;
 }
 
 /// Spreads the side of the first triangle over its component.
 /// @param members  the first triangle; receives all triangles of the component
 /// @return whether the component has two sides
 bool SpreadSide(
-  const Neighbours& neighbours, std::vector<signed char>& side, std::vector<Id>& members)
+  const Neighbors& neighbors, std::vector<signed char>& side, std::vector<Id>& members)
 {
   bool hasTwoSides = true;
   for (std::size_t k = 0; k < members.size(); ++k)
   {
     const Id triangle = members[k];
-    for (const Neighbour& neighbour : neighbours[triangle])
+    for (const Neighbor& neighbor : neighbors[triangle])
     {
-      if (neighbour.triangle == None)
+      if (neighbor.triangle == None)
       {
         continue;
       }
       const auto wanted =
-        static_cast<signed char>(neighbour.facesAlike ? side[triangle] : -side[triangle]);
-      if (side[neighbour.triangle] == 0)
+        static_cast<signed char>(neighbor.facesAlike ? side[triangle] : -side[triangle]);
+      if (side[neighbor.triangle] == 0)
       {
-        side[neighbour.triangle] = wanted;
-        members.push_back(neighbour.triangle);
+        side[neighbor.triangle] = wanted;
+        members.push_back(neighbor.triangle);
       }
-      hasTwoSides = hasTwoSides && side[neighbour.triangle] == wanted;
+      hasTwoSides = hasTwoSides && side[neighbor.triangle] == wanted;
     }
   }
   return hasTwoSides;
@@ -96,7 +96,7 @@ double ConeOver(const TriangleMesh& mesh, Id triangle, const Vec3& tip)
 
 /// Returns 1 if a component faces as the side of its first triangle, or -1 if it faces the other
 /// way.
-int SideOf(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Id>& members,
+int SideOf(const TriangleMesh& mesh, const Neighbors& neighbors, const std::vector<Id>& members,
   const std::vector<signed char>& side)
 {
   double area = 0.0;
@@ -109,15 +109,15 @@ int SideOf(const TriangleMesh& mesh, const Neighbours& neighbours, const std::ve
     area += side[t] * AreaOf(mesh, t);
     volume += side[t] * ConeOver(mesh, t, tip);
     facesAlike = facesAlike && side[t] == side[members.front()];
-    for (const Neighbour& neighbour : neighbours[t])
+    for (const Neighbor& neighbor : neighbors[t])
     {
-      isClosed = isClosed && neighbour.triangle != None;
+      isClosed = isClosed && neighbor.triangle != None;
     }
   }
   return (isClosed && !facesAlike ? volume : area) < 0.0 ? -1 : 1;
 }
 
-void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEdges& edges)
+void FindSides(const TriangleMesh& mesh, const Neighbors& neighbors, SurfaceEdges& edges)
 {
   edges.side.assign(mesh.triangles.size(), 0);
   std::vector<char> isSeen(mesh.triangles.size(), 0);
@@ -130,8 +130,8 @@ void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEd
     }
     members.assign(1, first);
     edges.side[first] = 1;
-    const bool hasTwoSides = SpreadSide(neighbours, edges.side, members);
-    const int factor = hasTwoSides ? SideOf(mesh, neighbours, members, edges.side) : 0;
+    const bool hasTwoSides = SpreadSide(neighbors, edges.side, members);
+    const int factor = hasTwoSides ? SideOf(mesh, neighbors, members, edges.side) : 0;
     for (const Id t : members)
     {
       edges.side[t] = static_cast<signed char>(factor * edges.side[t]);
@@ -222,9 +222,8 @@ SurfaceEdges FindSurfaceEdges(const TriangleMesh& mesh, bool weldCoincidentPoint
   const Array<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, {}, threads) : Array<Index>();
   SurfaceEdges edges;
-  const Neighbours neighbours =
-    Classify(SortedSides(mesh, pointClass), mesh.triangles.size(), edges);
-  FindSides(mesh, neighbours, edges);
+  const Neighbors neighbors = Classify(SortedSides(mesh, pointClass), mesh.triangles.size(), edges);
+  FindSides(mesh, neighbors, edges);
   return edges;
 }
 

@@ -91,8 +91,8 @@ void SortFew(Index* begin, Index* end)
 /// Appends the distinct functions that share a patch with function f, ascending. Most surrounding
 /// places have only one such function, so most repetitions are recognized by their place.
 template<int Functions>
-void AppendNeighbours(const BasicPatchLevel<Functions>& level, const FunctionPlaces& places,
-  Index f, Array<Index>& columns)
+void AppendNeighbors(const BasicPatchLevel<Functions>& level, const FunctionPlaces& places, Index f,
+  Array<Index>& columns)
 {
   const std::size_t first = columns.size();
   std::array<Index, FunctionLattice<Functions>::PlacesAround> known;
@@ -216,7 +216,7 @@ SparseMatrix BuildPattern(
   pattern.rows = pattern.columns = level.numberOfFunctions;
   FillRows(pattern, threads,
     [&](Index row, Array<Index>& columns, Array<double>&)
-    { AppendNeighbours(level, places, row, columns); });
+    { AppendNeighbors(level, places, row, columns); });
   return pattern;
 }
 

@@ -19,10 +19,10 @@ namespace gridfem
 struct BlockRanges
 {
   std::vector<Id> blockBegin;
-  std::vector<Id> colourBegin;
+  std::vector<Id> colorBegin;
 
-  Id NumberOfColours() const { return std::max<Id>(0, Id(colourBegin.size()) - 1); }
-  std::size_t Memory() const { return (blockBegin.size() + colourBegin.size()) * sizeof(Id); }
+  Id NumberOfColors() const { return std::max<Id>(0, Id(colorBegin.size()) - 1); }
+  std::size_t Memory() const { return (blockBegin.size() + colorBegin.size()) * sizeof(Id); }
 };
 
 /// Runs body(phase, item) for all items of phase 0, then of phase 1, and so on. Items of one phase
@@ -61,15 +61,15 @@ template<class Body>
 void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int threads, Body&& body)
 {
   const bool forward = direction == SweepDirection::Forward;
-  const Id colours = ranges.NumberOfColours();
-  const auto colourOf = [&](Id step) { return forward ? step : colours - 1 - step; };
-  std::vector<Id> blocks(colours);
-  for (Id step = 0; step < colours; ++step)
+  const Id colors = ranges.NumberOfColors();
+  const auto colorOf = [&](Id step) { return forward ? step : colors - 1 - step; };
+  std::vector<Id> blocks(colors);
+  for (Id step = 0; step < colors; ++step)
   {
-    blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
+    blocks[step] = ranges.colorBegin[colorOf(step) + 1] - ranges.colorBegin[colorOf(step)];
   }
   ParallelPhases(
-    blocks, threads, [&](Id step, Id k) { body(ranges.colourBegin[colourOf(step)] + k); });
+    blocks, threads, [&](Id step, Id k) { body(ranges.colorBegin[colorOf(step)] + k); });
 }
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the

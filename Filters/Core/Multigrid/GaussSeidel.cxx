@@ -42,7 +42,7 @@ GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order) : unkno
     }
   };
   unknown_.reserve(A.rows);
-  ranges_.colourBegin = order.colourBegin;
+  ranges_.colorBegin = order.colorBegin;
   ranges_.blockBegin.push_back(0);
   for (std::size_t block = 0; block + 1 < order.blockBegin.size(); ++block)
   {

@@ -88,10 +88,10 @@ BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<UnknownGroups>& gr
 }
 
 /// Gives every block the lowest color that no earlier coupled block has.
-std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<UnknownGroups>& groups)
+std::vector<int> ColorBlocks(const SparseMatrix& A, const std::vector<UnknownGroups>& groups)
 {
   const BlocksOfUnknowns blocks = FindBlocks(A.rows, groups);
-  std::vector<int> colour(groups.size(), -1);
+  std::vector<int> color(groups.size(), -1);
   std::vector<char> isTaken;
   for (std::size_t block = 0; block < groups.size(); ++block)
   {
@@ -104,43 +104,43 @@ std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<UnknownGr
           const Index j = A.column[k];
           for (Index other = blocks.begin[j]; other < blocks.begin[j + 1]; ++other)
           {
-            if (colour[blocks.block[other]] >= 0)
+            if (color[blocks.block[other]] >= 0)
             {
-              isTaken[colour[blocks.block[other]]] = 1;
+              isTaken[color[blocks.block[other]]] = 1;
             }
           }
         }
       });
     const auto free = std::find(isTaken.begin(), isTaken.end(), 0);
-    colour[block] = static_cast<int>(free - isTaken.begin());
+    color[block] = static_cast<int>(free - isTaken.begin());
     if (free == isTaken.end())
     {
       isTaken.push_back(0);
     }
   }
-  return colour;
+  return color;
 }
 
 /// Sorts the groups of all blocks by color. Blocks without a group are left out.
-PatchOrder SortByColour(const SparseMatrix& A, const std::vector<UnknownGroups>& groups, int size)
+PatchOrder SortByColor(const SparseMatrix& A, const std::vector<UnknownGroups>& groups, int size)
 {
-  const std::vector<int> colour = ColourBlocks(A, groups);
-  const int colours = colour.empty() ? 0 : 1 + *std::max_element(colour.begin(), colour.end());
+  const std::vector<int> color = ColorBlocks(A, groups);
+  const int colors = color.empty() ? 0 : 1 + *std::max_element(color.begin(), color.end());
   PatchOrder order;
   order.dof.size = size;
   order.blockBegin.push_back(0);
-  order.colourBegin.push_back(0);
-  for (int c = 0; c < colours; ++c)
+  order.colorBegin.push_back(0);
+  for (int c = 0; c < colors; ++c)
   {
     for (std::size_t block = 0; block < groups.size(); ++block)
     {
-      if (colour[block] == c && !groups[block].IsEmpty())
+      if (color[block] == c && !groups[block].IsEmpty())
       {
         order.dof.Add(groups[block].unknown);
         order.blockBegin.push_back(order.dof.Count());
       }
     }
-    order.colourBegin.push_back(static_cast<Id>(order.blockBegin.size()) - 1);
+    order.colorBegin.push_back(static_cast<Id>(order.blockBegin.size()) - 1);
   }
   return order;
 }
@@ -246,7 +246,7 @@ PatchOrder OrderInBlocks(const SparseMatrix& A)
     groups[block].unknown.resize(range.end - range.begin);
     std::iota(groups[block].unknown.begin(), groups[block].unknown.end(), range.begin);
   }
-  return SortByColour(A, groups, 1);
+  return SortByColor(A, groups, 1);
 }
 
 PatchOrder GroupByCoupling(const SparseMatrix& A, int threads, int size)
@@ -255,7 +255,7 @@ PatchOrder GroupByCoupling(const SparseMatrix& A, int threads, int size)
   std::vector<UnknownGroups> groups(NumberOfBlocks(A));
   ParallelBlocks(static_cast<Id>(groups.size()), threads,
     [&](Id block) { groups[block] = GroupGrower(A, diagonal, BlockOf(A, block), size).Grow(); });
-  return SortByColour(A, groups, size);
+  return SortByColor(A, groups, size);
 }
 
 } // namespace gridfem

@@ -199,7 +199,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
     }
     if (type == SmootherType::SliceGaussSeidel)
     {
-      return MakeSliceGaussSeidel(level.A, level.order, options_.sweepsPerSynchronisation);
+      return MakeSliceGaussSeidel(level.A, level.order, options_.sweepsPerSynchronization);
     }
     if (options_.precision == FactorPrecision::Mixed && level.groups.dof.IsEmpty())
     {
@@ -260,7 +260,7 @@ std::size_t BasicMultigrid<Real>::Memory() const
   {
     bytes += level.A.Memory() + level.prolongation->Memory() + level.restriction->Memory() +
              level.order.dof.unknown.size() * sizeof(Index) +
-             (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id) +
+             (level.order.blockBegin.size() + level.order.colorBegin.size()) * sizeof(Id) +
              level.order.slice.size() * sizeof(Index);
     bytes += level.smoother ? level.smoother->Memory() : 0;
   }

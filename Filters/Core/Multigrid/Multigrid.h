@@ -21,7 +21,7 @@ struct MultigridOptions
   int preSweeps = 1;                                  // >= 0; equal counts keep the cycle symmetric
   int postSweeps = 1;                                 // >= 0
   FactorPrecision precision = FactorPrecision::Mixed; // precision of the patch smoother's factors
-  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
+  int sweepsPerSynchronization = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
 };
 

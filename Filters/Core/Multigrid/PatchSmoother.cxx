@@ -62,8 +62,7 @@ private:
   static BlockRanges RangesOf(const SparseMatrix& A, const PatchOrder& order, int threads)
   {
     CheckOrder(A, order, threads);
-    return { order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin,
-      order.colourBegin };
+    return { order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin, order.colorBegin };
   }
 
   Index rows_;

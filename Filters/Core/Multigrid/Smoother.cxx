@@ -29,7 +29,7 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
     throw InvalidInput("A smoother needs a square matrix.");
   }
   const Id blocks = std::max<Id>(0, Id(order.blockBegin.size()) - 1);
-  if (!Covers(order.blockBegin, order.dof.Count()) || !Covers(order.colourBegin, blocks))
+  if (!Covers(order.blockBegin, order.dof.Count()) || !Covers(order.colorBegin, blocks))
   {
     throw InvalidInput("Blocks and colors of a patch order must cover all patches.");
   }

@@ -21,9 +21,9 @@ struct PatchOrder
   UnknownGroups dof;
   /// Block k has the patches blockBegin[k] .. blockBegin[k + 1). Blocks are sorted by color.
   std::vector<Id> blockBegin;
-  /// Color c has the blocks colourBegin[c] .. colourBegin[c + 1). The matrix does not couple
+  /// Color c has the blocks colorBegin[c] .. colorBegin[c + 1). The matrix does not couple
   /// unknowns of two blocks of one color.
-  std::vector<Id> colourBegin;
+  std::vector<Id> colorBegin;
   /// The height of each unknown's grid corner in cells; empty if unknowns have no corner. The
   /// matrix does not couple unknowns whose heights differ by more than one.
   std::vector<Index> slice;

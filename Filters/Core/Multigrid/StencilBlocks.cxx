@@ -26,7 +26,7 @@ constexpr double UnresolvedShare = 0.1;
 
 /// Place of the diagonal entry in a row. The corners (PatchOrder::corner) of row and column differ
 /// by -17 to 17.
-constexpr unsigned Centre = 17;
+constexpr unsigned Center = 17;
 
 /// The offset of PatchOrder::corner at a corner of a cell.
 constexpr Index CornerOffset(int corner)
@@ -59,7 +59,7 @@ bool IsCell(UnknownGroup dof, const std::vector<Index>& corner)
 template<class Visit>
 void ForEachPlace(const SparseMatrix& A, const std::vector<Index>& corner, Index row, Visit&& visit)
 {
-  const Index first = corner[row] - static_cast<Index>(Centre);
+  const Index first = corner[row] - static_cast<Index>(Center);
   for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
   {
     visit(k, static_cast<unsigned>(corner[A.column[k]] - first));
@@ -105,7 +105,7 @@ struct StencilBlocks::Draft
     std::vector<Index>& number, Patch* patches)
   {
     this->NumberOwn(order, begin, end, number);
-    this->NumberNeighbours(A, order, number);
+    this->NumberNeighbors(A, order, number);
     fits = fits && unknowns.size() <= std::numeric_limits<Local>::max();
     for (Id p = begin; fits && p < end; ++p)
     {
@@ -119,7 +119,7 @@ struct StencilBlocks::Draft
 
 private:
   /// Numbers of a row's unknowns, by place. A run of four numbers is one word. 0: none.
-  struct Neighbours
+  struct Neighbors
   {
     std::array<std::uint64_t, StencilRow::Size / 4> run{};
     bool areMany = false; // two unknowns at one place
@@ -157,9 +157,9 @@ private:
     rows = own + 1;
   }
 
-  void NumberNeighbours(const SparseMatrix& A, const PatchOrder& order, std::vector<Index>& number)
+  void NumberNeighbors(const SparseMatrix& A, const PatchOrder& order, std::vector<Index>& number)
   {
-    neighbours_.resize(own + 1);
+    neighbors_.resize(own + 1);
     for (Index i = 1; fits && i <= own; ++i)
     {
       ForEachPlace(A, order.corner, unknowns[i],
@@ -168,7 +168,7 @@ private:
           const auto column = static_cast<Local>(this->Number(A.column[k], number));
           if (IsPlace(place))
           {
-            neighbours_[i].Set(place, column);
+            neighbors_[i].Set(place, column);
           }
           fits = fits && IsPlace(place);
         });
@@ -189,7 +189,7 @@ private:
     }
     const auto forEachRun = [&](int c, auto&& visit)
     {
-      const Neighbours& row = neighbours_[number[dof[c]]];
+      const Neighbors& row = neighbors_[number[dof[c]]];
       for (int run = 0; run < StencilRow::Size / 4; ++run)
       {
         visit(row.run[run] << 16 * (c & 1), slots[SlotOf(c - c % 2, 4 * run) / 4]);
@@ -207,7 +207,7 @@ private:
     patch.firstExtra = static_cast<Index>(extras.size()); // counted from the block's first
     for (int c = 0; c < N; ++c)
     {
-      std::uint64_t foreign = neighbours_[number[dof[c]]].areMany ? 1 : 0;
+      std::uint64_t foreign = neighbors_[number[dof[c]]].areMany ? 1 : 0;
       forEachRun(c,
         [&](std::uint64_t run, std::uint64_t slot) { foreign |= IsSet(run) & IsSet(run ^ slot); });
       patch.row[c] = static_cast<Local>(foreign == 0 ? number[dof[c]] : rows++);
@@ -234,7 +234,7 @@ private:
       });
   }
 
-  std::vector<Neighbours> neighbours_; // of own unknowns, by their number
+  std::vector<Neighbors> neighbors_; // of own unknowns, by their number
 };
 
 StencilBlocks::StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads)

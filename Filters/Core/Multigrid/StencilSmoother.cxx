@@ -177,7 +177,7 @@ class StencilSmoother : public Smoother
 {
 public:
   StencilSmoother(StencilBlocks blocks, const SparseMatrix& A, const PatchOrder& order, int threads)
-    : rows_(A.rows), ranges_{ order.blockBegin, order.colourBegin }, blocks_(std::move(blocks)),
+    : rows_(A.rows), ranges_{ order.blockBegin, order.colorBegin }, blocks_(std::move(blocks)),
       rest_(this->MakeRest(A, order, threads))
   {
     for (Id block = 0; block + 1 < static_cast<Id>(ranges_.blockBegin.size()); ++block)
@@ -242,7 +242,7 @@ private:
       rest.blockBegin.push_back(
         std::lower_bound(patches.begin(), patches.end(), begin) - patches.begin());
     }
-    rest.colourBegin = order.colourBegin;
+    rest.colorBegin = order.colorBegin;
     return MakePatchSmoother(A, rest, threads);
   }
 

@@ -45,14 +45,14 @@ void CheckBoundary(const FlowOptions& options)
 }
 
 /// Sets x = center + scale (x - center) in each row.
-void ScaleAbout(const Vec3& centre, double scale, MultiVector& positions, int threads)
+void ScaleAbout(const Vec3& center, double scale, MultiVector& positions, int threads)
 {
   ParallelRanges(positions.rows(), threads,
     [&](Id begin, Id end)
     {
       for (Id i = begin; i < end; ++i)
       {
-        SetRow(positions, i, centre + scale * (RowOf(positions, i) - centre));
+        SetRow(positions, i, center + scale * (RowOf(positions, i) - center));
       }
     });
 }

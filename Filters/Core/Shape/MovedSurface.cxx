@@ -41,8 +41,8 @@ Eigen::Vector4d AreaMoments(const std::vector<Vec3>& points,
     {
       const auto& [a, b, c] = triangles[t];
       const double area = 0.5 * AreaVector(points, triangles[t]).norm();
-      const Vec3 centre = (points[a] + points[b] + points[c]) / 3.0 - about;
-      moments += area * Eigen::Vector4d(1.0, centre[0], centre[1], centre[2]);
+      const Vec3 center = (points[a] + points[b] + points[c]) / 3.0 - about;
+      moments += area * Eigen::Vector4d(1.0, center[0], center[1], center[2]);
     }
     return moments;
   };
@@ -50,7 +50,7 @@ Eigen::Vector4d AreaMoments(const std::vector<Vec3>& points,
     static_cast<Id>(triangles.size()), threads, Eigen::Vector4d(Eigen::Vector4d::Zero()), sum);
 }
 
-double VolumeAbout(const Vec3& centre, const std::vector<Vec3>& points,
+double VolumeAbout(const Vec3& center, const std::vector<Vec3>& points,
   const std::vector<std::array<Id, 3>>& triangles, int threads)
 {
   const auto sum = [&](Id begin, Id end)
@@ -59,7 +59,7 @@ double VolumeAbout(const Vec3& centre, const std::vector<Vec3>& points,
     for (Id t = begin; t < end; ++t)
     {
       const auto& [a, b, c] = triangles[t];
-      volume += (points[a] - centre).dot((points[b] - centre).cross(points[c] - centre)) / 6.0;
+      volume += (points[a] - center).dot((points[b] - center).cross(points[c] - center)) / 6.0;
     }
     return volume;
   };

@@ -55,7 +55,7 @@ Vec3 WeightedNormal(const HatTriangle& triangle, int corner)
 
 Vec3 NormalOf(const TriangleMesh& mesh, const HatFunctions& hats, Id function)
 {
-  constexpr double Cancelled = 1e-6;
+  constexpr double Canceled = 1e-6;
   Vec3 sum = Vec3::Zero();
   Vec3 first = Vec3::Zero();
   double size = 0.0;
@@ -68,11 +68,11 @@ Vec3 NormalOf(const TriangleMesh& mesh, const HatFunctions& hats, Id function)
     sum += normal;
     size += normal.norm();
   }
-  return (sum.norm() > Cancelled * size ? sum : first).stableNormalized();
+  return (sum.norm() > Canceled * size ? sum : first).stableNormalized();
 }
 
 /// The neighbors of a function: the functions at the other corners of its triangles, each once.
-struct Neighbours
+struct Neighbors
 {
   std::vector<Index> all;
   bool isAtBoundary = false; // some edge has only one triangle
@@ -133,12 +133,12 @@ public:
     for (int pass = 0; pass < Passes; ++pass)
     {
       std::vector<std::pair<Index, Vec3>> corrected;
-      Neighbours neighbours;
+      Neighbors neighbors;
       for (const Index function : boundary)
       {
-        neighbours.Collect(mesh_, hats_, function);
+        neighbors.Collect(mesh_, hats_, function);
         Vec3 normal;
-        if (!known_[function] && this->Fit(function, neighbours.all, normal))
+        if (!known_[function] && this->Fit(function, neighbors.all, normal))
         {
           corrected.emplace_back(function, normal);
         }
@@ -159,11 +159,11 @@ private:
     ParallelRanges(hats_.Count(), threads,
       [&](Id begin, Id end)
       {
-        Neighbours neighbours;
+        Neighbors neighbors;
         for (Id function = begin; function < end; ++function)
         {
-          neighbours.Collect(mesh_, hats_, function);
-          known_[function] = !neighbours.isAtBoundary;
+          neighbors.Collect(mesh_, hats_, function);
+          known_[function] = !neighbors.isAtBoundary;
         }
       });
     std::vector<Index> boundary;
@@ -178,7 +178,7 @@ private:
   }
 
   /// @return  false if the known neighbors lie along one line
-  bool Fit(Index function, const std::vector<Index>& neighbours, Vec3& normal) const
+  bool Fit(Index function, const std::vector<Index>& neighbors, Vec3& normal) const
   {
     constexpr double SmallestSpread = 1e-3;
     const Vec3 own = this->NormalAt(function);
@@ -186,11 +186,11 @@ private:
     const Vec3 second = own.cross(first);
     Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    for (const Index neighbour : neighbours)
+    for (const Index neighbor : neighbors)
     {
-      const Vec3 edge = mesh_.points[point_[neighbour]] - mesh_.points[point_[function]];
-      const Vec3 other = this->NormalAt(neighbour);
-      if (known_[neighbour] && other.dot(own) > 0.0)
+      const Vec3 edge = mesh_.points[point_[neighbor]] - mesh_.points[point_[function]];
+      const Vec3 other = this->NormalAt(neighbor);
+      if (known_[neighbor] && other.dot(own) > 0.0)
       {
         const Vec3 direction = edge.stableNormalized();
         const Eigen::Vector2d row(first.dot(direction), second.dot(direction));
@@ -224,7 +224,7 @@ double SideOf(const Vec3& normal, const Vec3& ofTriangle)
 /// [Rusinkiewicz 2004, §2]
 Tensor FitTriangle(const HatTriangle& triangle, const std::array<Vec3, 3>& normals)
 {
-  constexpr double Regularisation = 1e-14; // for the unknown height of needles
+  constexpr double Regularization = 1e-14; // for the unknown height of needles
   const Vec3 normal = triangle.areaVector.normalized();
   const Vec3 first = triangle.edge[0].normalized();
   const Vec3 second = normal.cross(first);
@@ -247,7 +247,7 @@ Tensor FitTriangle(const HatTriangle& triangle, const std::array<Vec3, 3>& norma
   }
   A(1, 1) = A(0, 0) + A(2, 2);
   A(1, 0) = A(2, 1) = A(1, 2) = A(0, 1);
-  A.diagonal().array() += Regularisation * A(1, 1);
+  A.diagonal().array() += Regularization * A(1, 1);
   const Vec3 form = A.ldlt().solve(b);
   return form[0] * first * first.transpose() + form[2] * second * second.transpose() +
          form[1] * (first * second.transpose() + second * first.transpose());

@@ -69,7 +69,7 @@ inline StageKey KeyOf(const EquationOptions& equation)
   const MultigridOptions& multigrid = equation.multigrid;
   StageKey key;
   key.Add(multigrid.cycle).Add(multigrid.smoother).Add(multigrid.preSweeps);
-  key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronisation);
+  key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronization);
   key.Add(equation.solve.tolerance).Add(equation.solve.maximumIterations).Add(equation.accuracy);
   return key;
 }

@@ -141,9 +141,9 @@ void CollectRow(const TriangleMesh& mesh, const HatFunctions& hats,
     const TriangleTerms& term = terms[corner.Triangle()];
     for (int side = 1; side < 3; ++side)
     {
-      const int neighbour = (corner.Corner() + side) % 3;
+      const int neighbor = (corner.Corner() + side) % 3;
       const int opposite = (corner.Corner() + 3 - side) % 3;
-      contributions.push_back({ hats.ofPoint[mesh.triangles[corner.Triangle()][neighbour]],
+      contributions.push_back({ hats.ofPoint[mesh.triangles[corner.Triangle()][neighbor]],
         static_cast<int>(k - hats.begin[row]), term.twelfthOfArea, -term.halfCotangent[opposite] });
     }
   }

@@ -18,7 +18,7 @@ constexpr int BlockShift = 9;
 /// Returns the lowest bits of the block's i, j and k. Along each axis, functions of a block lie on
 /// corners 0 .. 8 of its cells, and their rows reach corners -1 .. 9. The next block of the color
 /// begins at corner 16. Two blocks of one color therefore neither share nor couple functions.
-int Colour(MortonKey block)
+int Color(MortonKey block)
 {
   return static_cast<int>(block & 7);
 }
@@ -38,7 +38,7 @@ std::vector<Id> VisitingOrder(const Level& level, Id begin, Id end)
 
 struct BlockRange
 {
-  int colour;
+  int color;
   Id begin;
   Id end;
 };
@@ -56,7 +56,7 @@ std::vector<BlockRange> FindBlocks(const std::vector<MortonKey>& cell)
     {
       ++end;
     }
-    blocks.push_back({ Colour(block), begin, end });
+    blocks.push_back({ Color(block), begin, end });
     begin = end;
   }
   return blocks;
@@ -108,18 +108,18 @@ PatchOrder OrderByBlocks(const BasicPatchLevel<Functions>& some)
   CheckLevel(some);
   std::vector<BlockRange> blocks = FindBlocks(some.cell);
   std::stable_sort(blocks.begin(), blocks.end(),
-    [](const BlockRange& a, const BlockRange& b) { return a.colour < b.colour; });
+    [](const BlockRange& a, const BlockRange& b) { return a.color < b.color; });
 
   PatchOrder order;
   order.dof.size = Functions;
   order.dof.unknown.reserve(Functions * some.dof.size());
   order.blockBegin.push_back(0);
-  order.colourBegin.push_back(0);
+  order.colorBegin.push_back(0);
   for (Id k = 0; k < static_cast<Id>(blocks.size()); ++k)
   {
-    if (k > 0 && blocks[k].colour != blocks[k - 1].colour)
+    if (k > 0 && blocks[k].color != blocks[k - 1].color)
     {
-      order.colourBegin.push_back(k);
+      order.colorBegin.push_back(k);
     }
     for (const Id patch : VisitingOrder(some, blocks[k].begin, blocks[k].end))
     {
@@ -129,7 +129,7 @@ PatchOrder OrderByBlocks(const BasicPatchLevel<Functions>& some)
   }
   if (!blocks.empty())
   {
-    order.colourBegin.push_back(static_cast<Id>(blocks.size()));
+    order.colorBegin.push_back(static_cast<Id>(blocks.size()));
   }
   return order;
 }

@@ -35,7 +35,7 @@ struct GridCase
         1.0, ThesisCycle())),
       A(ToEigen(grid.multigrid->Matrix()))
   {
-    ChooseColours(grid, 1);
+    ChooseColors(grid, 1);
     b = grid.options.screeningWeight * grid.values + grid.gradients;
   }
 };
@@ -246,7 +246,7 @@ void WriteSeparatedCubes(const std::string& folder)
   Panel thesis{ "216 cubes, depth 5: W, 10 Gauss-Seidel sweeps", "cycles", "relative residual",
     true, {} };
   Panel ours{ "The same: W, 1 patch sweep", "cycles", "relative residual", true, {} };
-  std::vector<ColouredSurface> surfaces;
+  std::vector<ColoredSurface> surfaces;
   for (const FunctionSupport support :
     { FunctionSupport::Plain, FunctionSupport::ConnectivityAware })
   {
@@ -268,7 +268,7 @@ void WriteSeparatedCubes(const std::string& folder)
     ours.curves.push_back(CountedCurve(
       name, kind, Residuals(on.A, on.b, Cycles(*on.grid.multigrid, on.b, start), MostCycles)));
   }
-  for (ColouredSurface& surface : surfaces)
+  for (ColoredSurface& surface : surfaces)
   {
     surface.largest = *std::max_element(surfaces[0].value.begin(), surfaces[0].value.end());
   }

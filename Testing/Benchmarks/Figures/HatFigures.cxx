@@ -187,12 +187,12 @@ void WriteHatConvergence(const std::string& folder)
   const TriangleMesh mesh = RockerArm(0).mesh;
   const CotangentSystem system = AssembleCotangents(mesh);
   const HybridProblem hybrid = SetUpHybrid(mesh, Depth, 1);
-  const HatContestants colours(
-    mesh, system, hybrid, ScreeningWeight, ToRows(system, ColoursAtPoints(mesh, 1)));
+  const HatContestants colors(
+    mesh, system, hybrid, ScreeningWeight, ToRows(system, ColorsAtPoints(mesh, 1)));
   WriteFigure(
     { "figure-4.7",
-      { ConvergencePanel("Rocker arm, hat functions, screening 0.01: as the thesis", colours),
-        HybridPanel(colours) } },
+      { ConvergencePanel("Rocker arm, hat functions, screening 0.01: as the thesis", colors),
+        HybridPanel(colors) } },
     folder);
   const HatSpectrum spectrum = SpectraSpectrum(system, Modes, TruthTolerance);
   const Eigen::MatrixXd sum = spectrum.vectors.rowwise().sum();
@@ -222,7 +222,7 @@ void WriteKnotConvergence(const std::string& folder)
   const TriangleMesh knot = testing::TrefoilTube(400, 40);
   const CotangentSystem system = AssembleCotangents(knot);
   const Eigen::MatrixXd b =
-    Combine(system, ScreeningWeight / SquaredSide(knot)) * ToRows(system, ColoursAtPoints(knot, 1));
+    Combine(system, ScreeningWeight / SquaredSide(knot)) * ToRows(system, ColorsAtPoints(knot, 1));
   const SymmetricMatrix A = Combine(system, ScreeningWeight / SquaredSide(knot));
   Panel thesis{ "Knot, hat functions, grid of depth 5: W, 10 Gauss-Seidel", "cycles",
     "relative residual", true, {} };

@@ -1,4 +1,4 @@
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Figures.h"
 #include "Measure.h"
 #include "Meshes.h"

@@ -63,14 +63,14 @@ Cholmod::Cholmod() : state_(std::make_unique<State>())
 
 Cholmod::~Cholmod() = default;
 
-void Cholmod::Analyse(const SymmetricMatrix& A)
+void Cholmod::Analyze(const SymmetricMatrix& A)
 {
   cholmod_sparse view = View(A);
   cholmod_free_factor(&state_->factor, &state_->common);
   state_->factor = cholmod_analyze(&view, &state_->common);
 }
 
-void Cholmod::AnalyseAs(const Cholmod& other)
+void Cholmod::AnalyzeAs(const Cholmod& other)
 {
   cholmod_free_factor(&state_->factor, &state_->common);
   state_->factor = cholmod_copy_factor(other.state_->factor, &state_->common);

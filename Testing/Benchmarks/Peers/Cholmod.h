@@ -22,10 +22,10 @@ public:
   Cholmod& operator=(const Cholmod&) = delete;
 
   /// The symbolic part.
-  void Analyse(const SymmetricMatrix& A);
+  void Analyze(const SymmetricMatrix& A);
 
   /// Takes the symbolic part of a matrix of the same pattern, which was analyzed but not factored.
-  void AnalyseAs(const Cholmod& other);
+  void AnalyzeAs(const Cholmod& other);
 
   /// The numeric part; may be repeated for new values of the same pattern. Throws
   /// std::runtime_error when A is not positive definite.

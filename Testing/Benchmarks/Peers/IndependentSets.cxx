@@ -11,7 +11,7 @@ namespace gridfem::benchmarks
 namespace
 {
 
-constexpr int MostNeighbours = 12;
+constexpr int MostNeighbors = 12;
 constexpr double Pi = 3.14159265358979323846;
 
 using Vec2 = Eigen::Vector2d;
@@ -46,7 +46,7 @@ struct ChangingMesh
     }
   }
 
-  bool AreNeighbours(Id a, Id b) const
+  bool AreNeighbors(Id a, Id b) const
   {
     return std::any_of(around[a].begin(), around[a].end(),
       [&](Id t) { return std::count(triangles[t].begin(), triangles[t].end(), b) > 0; });
@@ -81,7 +81,7 @@ struct ChangingMesh
       next = leaving->second;
     }
     const bool closed = ring.size() >= 3 && next == ring.front();
-    return closed && ring.size() <= MostNeighbours ? ring : std::vector<Id>();
+    return closed && ring.size() <= MostNeighbors ? ring : std::vector<Id>();
   }
 };
 
@@ -158,7 +158,7 @@ std::optional<Fan> FindFan(const ChangingMesh& mesh, Id vertex, const std::vecto
     bool isNew = true;
     for (std::size_t k = 2; k + 1 < n && isNew; ++k)
     {
-      isNew = !mesh.AreNeighbours(ring[apex], ring[(apex + k) % n]);
+      isNew = !mesh.AreNeighbors(ring[apex], ring[(apex + k) % n]);
     }
     const std::optional<Fan> fan = isNew ? TryFan(plane, apex) : std::nullopt;
     if (fan)
@@ -228,9 +228,9 @@ Prolongation RemoveOneSet(TriangleMesh& mesh)
       entries.emplace_back(v, ring[fan->triangle[c]], fan->weight[c]);
     }
     number[v] = -1;
-    for (const Id neighbour : ring)
+    for (const Id neighbor : ring)
     {
-      stays[neighbour] = 1;
+      stays[neighbor] = 1;
     }
     Remove(changing, static_cast<Id>(v), ring, *fan);
   }

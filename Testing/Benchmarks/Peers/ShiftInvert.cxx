@@ -24,7 +24,7 @@ public:
   void set_shift(const double& sigma)
   {
     const SymmetricMatrix matrix = Combine(hats_, -sigma);
-    factor_.Analyse(matrix);
+    factor_.Analyze(matrix);
     factor_.Factor(matrix);
   }
   void perform_op(const double* x, double* y) const

@@ -293,17 +293,17 @@ TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
 {
   constexpr double Radius = 0.25;
   const TriangleMesh mesh = FlatRectangle(120, 120);
-  const Vec3 centre(0.45, 0.5, 0);
+  const Vec3 center(0.45, 0.5, 0);
   std::vector<Id> sources;
   for (Id i = 0; i < static_cast<Id>(mesh.points.size()); ++i)
   {
-    if ((mesh.points[i] - centre).norm() <= Radius)
+    if ((mesh.points[i] - center).norm() <= Radius)
     {
       sources.push_back(i);
     }
   }
   const std::vector<double> exact =
-    ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - centre).norm() - Radius); });
+    ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - center).norm() - Radius); });
   for (const bool isOnHats : { false, true })
   {
     // sqrt(t) is 0.033 on the grid and 0.016 on the hats. Fronts end near their corners.

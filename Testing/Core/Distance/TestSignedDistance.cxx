@@ -33,11 +33,11 @@ public:
   {
     for (const auto& corner : mesh.triangles)
     {
-      centre_.push_back(
+      center_.push_back(
         (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0);
       for (const Id point : corner)
       {
-        radius_ = Larger(radius_, (mesh.points[point] - centre_.back()).norm());
+        radius_ = Larger(radius_, (mesh.points[point] - center_.back()).norm());
       }
     }
   }
@@ -48,7 +48,7 @@ public:
     const SurfacePlace nearest = places.front();
     for (Id t = 0; t < static_cast<Id>(mesh_.triangles.size()); ++t)
     {
-      if (t != nearest.triangle && (centre_[t] - nearest.position).norm() - radius_ <= tolerance)
+      if (t != nearest.triangle && (center_[t] - nearest.position).norm() - radius_ <= tolerance)
       {
         const Vec3 place = this->PlaceIn(t, nearest.position);
         if ((place - nearest.position).norm() <= tolerance)
@@ -67,7 +67,7 @@ private:
     double least = std::numeric_limits<double>::infinity();
     for (Id t = 0; t < static_cast<Id>(mesh_.triangles.size()); ++t)
     {
-      if ((centre_[t] - wanted).norm() - radius_ < least)
+      if ((center_[t] - wanted).norm() - radius_ < least)
       {
         const Vec3 place = this->PlaceIn(t, wanted);
         if ((place - wanted).norm() < least)
@@ -110,7 +110,7 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  std::vector<Vec3> centre_;
+  std::vector<Vec3> center_;
   double radius_ = 0.0; // of the largest triangle
 };
 
@@ -202,13 +202,13 @@ void ExpectSidesOf(const TriangleMesh& mesh, const Distance& height, const Surfa
   }
 }
 
-std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
+std::vector<Vec3> Circle(const Vec3& center, double radius, int count)
 {
   std::vector<Vec3> line;
   for (int k = 0; k < count; ++k)
   {
     const double angle = 2.0 * Pi * k / count + 0.1;
-    line.push_back(centre + radius * Vec3(std::cos(angle), std::sin(angle), 0));
+    line.push_back(center + radius * Vec3(std::cos(angle), std::sin(angle), 0));
   }
   line.push_back(line.front());
   return line;
@@ -302,9 +302,9 @@ TEST(SignedDistance, FromTheBorderOfARegionIsAsExactAsItsEdges)
   for (Id t = 0; t < triangles.values.rows(); ++t)
   {
     const auto& corner = mesh.triangles[t];
-    const Vec3 centre =
+    const Vec3 center =
       (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
-    triangles.values(t, 0) = exact(centre) < 0.0 ? 2.0 : 0.0;
+    triangles.values(t, 0) = exact(center) < 0.0 ? 2.0 : 0.0;
   }
   for (const Field& inside : { points, triangles })
   {

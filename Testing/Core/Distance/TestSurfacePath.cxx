@@ -157,9 +157,9 @@ TriangleMesh PlateWithHole(int thirds)
   TriangleMesh plate = FlatRectangle(3 * thirds, 3 * thirds, 3.0, 3.0);
   const auto isInHole = [&](const std::array<Id, 3>& corner)
   {
-    const Vec3 centre =
+    const Vec3 center =
       (plate.points[corner[0]] + plate.points[corner[1]] + plate.points[corner[2]]) / 3.0;
-    return centre[0] > 1.0 && centre[0] < 2.0 && centre[1] > 1.0 && centre[1] < 2.0;
+    return center[0] > 1.0 && center[0] < 2.0 && center[1] > 1.0 && center[1] < 2.0;
   };
   plate.triangles.erase(std::remove_if(plate.triangles.begin(), plate.triangles.end(), isInHole),
     plate.triangles.end());

@@ -4,7 +4,7 @@
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spectrum/Spectrum.h"
-#include "Support/Discretisation.h"
+#include "Support/Discretization.h"
 #include "Support/HatSystem.h"
 #include "Support/Meshes.h"
 
@@ -33,7 +33,7 @@ MultiVector Waves(const TriangleMesh& mesh)
 }
 
 MultiVector SolveGridPoisson(
-  const TriangleMesh& mesh, const Discretisation& d, double lambda, const MultiVector& f)
+  const TriangleMesh& mesh, const Discretization& d, double lambda, const MultiVector& f)
 {
   const double spacing = d.space.GetGrid().spacing;
   PoissonOptions options;
@@ -107,7 +107,7 @@ TEST_P(AgainstHats, Poisson)
   double coarse = 0.0;
   for (const int depth : { 6, 7 })
   {
-    const MultiVector u = SolveGridPoisson(mesh, Discretise(mesh, depth), lambda, f);
+    const MultiVector u = SolveGridPoisson(mesh, Discretize(mesh, depth), lambda, f);
     const double error =
       SurfaceNorm(hats, mesh, u - reference) /
       SurfaceNorm(hats, mesh, Eigen::MatrixXd(reference.array() - reference.mean()));
@@ -122,7 +122,7 @@ TEST_P(AgainstHats, Spectrum)
 {
   const int count = GetParam().modes;
   const std::vector<double> reference = HatEigenvalues(BuildHatSystem(mesh), count);
-  const Discretisation d = Discretise(mesh, 7);
+  const Discretization d = Discretize(mesh, 7);
   SpectrumOptions options;
   options.numberOfModes = count;
   const Spectrum spectrum = ComputeSpectrum(ViewOf(d.space, d.system), options);

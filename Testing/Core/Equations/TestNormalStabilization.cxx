@@ -1,6 +1,6 @@
 // The weight of the normal derivative: the iterations do not grow, the rate of the error stays, and
 // coordinates do not change.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Equations/Poisson.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"

@@ -3,7 +3,7 @@
 #include "Largest.h"
 
 #include "Dense.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spaces.h"
@@ -301,7 +301,7 @@ TEST(Poisson, IsTheSameWithEveryCycleAndSmoother)
     problem.options.multigrid.cycle = cycle;
     problem.options.multigrid.smoother = smoother;
     problem.options.multigrid.preSweeps = problem.options.multigrid.postSweeps = sweeps;
-    problem.options.multigrid.sweepsPerSynchronisation = between;
+    problem.options.multigrid.sweepsPerSynchronization = between;
     const PoissonSolution solution = problem.Solve(load, {});
     EXPECT_TRUE(solution.report.converged);
     const MultiVector found = EvaluateAtPoints(problem.space, solution.coefficients);

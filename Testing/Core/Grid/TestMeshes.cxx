@@ -156,12 +156,12 @@ TEST(Meshes, TrefoilStrandsNearlyTouchButDoNot)
   const int along = 400, around = 24;
   const double radius = 0.8;
   const TriangleMesh knot = TrefoilTube(along, around, radius);
-  std::vector<Vec3> centre(along, Vec3::Zero());
+  std::vector<Vec3> center(along, Vec3::Zero());
   for (int i = 0; i < along; ++i)
   {
     for (int j = 0; j < around; ++j)
     {
-      centre[i] += knot.points[i * around + j] / around;
+      center[i] += knot.points[i * around + j] / around;
     }
   }
   // Points at least a quarter of the knot apart along it belong to different strands.
@@ -170,7 +170,7 @@ TEST(Meshes, TrefoilStrandsNearlyTouchButDoNot)
   {
     for (int k = along / 4; k <= 3 * along / 4; ++k)
     {
-      nearest = std::min(nearest, (centre[i] - centre[(i + k) % along]).norm());
+      nearest = std::min(nearest, (center[i] - center[(i + k) % along]).norm());
     }
   }
   EXPECT_GT(nearest, 2 * radius);

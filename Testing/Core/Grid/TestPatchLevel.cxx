@@ -361,7 +361,7 @@ TEST(PatchLevel, RefusesPatchesThatTearTheSurface)
 
 // A corner that reaches 1e-6 of a cell into the next cell makes a sliver there. The sliver must not
 // create functions.
-TEST(PatchLevel, SliversJoinTheirNeighbours)
+TEST(PatchLevel, SliversJoinTheirNeighbors)
 {
   TriangleMesh mesh;
   mesh.points = { { 0, 0, 0.1 }, { 1, 0, 0.1 }, { 0.5, 0.5 + 2.5e-7, 0.1 } };

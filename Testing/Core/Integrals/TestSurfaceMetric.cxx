@@ -3,7 +3,7 @@
 #include "Integrals/SurfaceMetric.h"
 
 #include "Base/Errors.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "ElementSums.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Spaces.h"

@@ -36,7 +36,7 @@ Multigrid NearlyDependentPatches(int seen, double hidden, FactorPrecision precis
   order.dof.unknown.resize(N * Count);
   std::iota(order.dof.unknown.begin(), order.dof.unknown.end(), 0);
   order.blockBegin = { 0, Count };
-  order.colourBegin = { 0, 1 };
+  order.colorBegin = { 0, 1 };
   levels[0].A = testing::Sparse(A);
   levels[0].prolongation = testing::Sparse(Eigen::MatrixXd::Zero(N * Count, 1));
   levels[1].A = testing::Sparse(Eigen::MatrixXd::Identity(1, 1));

@@ -38,14 +38,14 @@ std::vector<std::set<Id>> BlocksOfUnknowns(const PatchOrder& order, Index unknow
 }
 
 /// Blocks of one color are relaxed at the same time.
-void ExpectColoursSeparateBlocks(const PatchOrder& order, const SparseMatrix& A)
+void ExpectColorsSeparateBlocks(const PatchOrder& order, const SparseMatrix& A)
 {
   const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(order, A.rows);
-  std::vector<std::size_t> colour(order.blockBegin.size() - 1);
-  EXPECT_GE(colour.size(), 6u); // there is something to color
-  for (std::size_t c = 0; c + 1 < order.colourBegin.size(); ++c)
+  std::vector<std::size_t> color(order.blockBegin.size() - 1);
+  EXPECT_GE(color.size(), 6u); // there is something to color
+  for (std::size_t c = 0; c + 1 < order.colorBegin.size(); ++c)
   {
-    std::fill(colour.begin() + order.colourBegin[c], colour.begin() + order.colourBegin[c + 1], c);
+    std::fill(color.begin() + order.colorBegin[c], color.begin() + order.colorBegin[c + 1], c);
   }
   for (Index i = 0; i < A.rows; ++i)
   {
@@ -55,7 +55,7 @@ void ExpectColoursSeparateBlocks(const PatchOrder& order, const SparseMatrix& A)
       {
         for (const Id b : blocks[A.column[k]])
         {
-          ASSERT_TRUE(a == b || colour[a] != colour[b]) << i << " " << A.column[k];
+          ASSERT_TRUE(a == b || color[a] != color[b]) << i << " " << A.column[k];
         }
       }
     }
@@ -75,7 +75,7 @@ SparseMatrix HatStiffness(const TriangleMesh& mesh)
 
 } // namespace
 
-TEST(HatOrdering, VisitsEveryUnknownOnceAndSeparatesBlocksOfAColour)
+TEST(HatOrdering, VisitsEveryUnknownOnceAndSeparatesBlocksOfAColor)
 {
   const SparseMatrix A = HatStiffness(GeodesicSphere(30)); // 3602 functions
   const PatchOrder order = OrderInBlocks(A);
@@ -85,10 +85,10 @@ TEST(HatOrdering, VisitsEveryUnknownOnceAndSeparatesBlocksOfAColour)
     visits[std::max(unknown, 0)] += unknown >= 0;
   }
   EXPECT_EQ(visits, std::vector<int>(A.rows, 1));
-  ExpectColoursSeparateBlocks(order, A);
+  ExpectColorsSeparateBlocks(order, A);
 }
 
-TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColour)
+TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColor)
 {
   for (const TriangleMesh& mesh : { GeodesicSphere(30), Ring(150), Ring(600) })
   {
@@ -102,7 +102,7 @@ TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColour)
         blocks.begin(), blocks.end(), [](const std::set<Id>& b) { return b.empty(); }));
       EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(),
         [](const std::set<Id>& b) { return b.size() > 1; })); // some groups cross borders
-      ExpectColoursSeparateBlocks(groups, A);
+      ExpectColorsSeparateBlocks(groups, A);
     }
   }
 }

@@ -3,7 +3,7 @@
 #include "Algebra/BlockVectors.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Krylov/Lobpcg.h"
 #include "Meshes.h"
 #include "Spectrum/Spectrum.h"
@@ -36,20 +36,20 @@ constexpr bool HasCycle<Hierarchy,
 
 static_assert(HasCycle<Multigrid> && !HasCycle<SingleMultigrid>);
 
-SingleMultigrid MakeSingle(const Discretisation& on, const MultigridOptions& options = Standard)
+SingleMultigrid MakeSingle(const Discretization& on, const MultigridOptions& options = Standard)
 {
   return SingleMultigrid(
     BuildMultigridLevels(ViewOf(on.space, on.system), Shift, 1.0, options), options);
 }
 
-SingleMultigrid MakeSingle(const Discretisation& on, int threads)
+SingleMultigrid MakeSingle(const Discretization& on, int threads)
 {
   MultigridOptions options = Standard;
   options.threads = threads;
   return MakeSingle(on, options);
 }
 
-Multigrid MakeDouble(const Discretisation& on, const MultigridOptions& options = Standard)
+Multigrid MakeDouble(const Discretization& on, const MultigridOptions& options = Standard)
 {
   return BuildMultigrid(ViewOf(on.space, on.system), Shift, 1.0, options);
 }
@@ -98,7 +98,7 @@ TriangleMesh TiltedBox(double degrees)
 
 TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid single = MakeSingle(on);
   const Multigrid multigrid = MakeDouble(on);
   EXPECT_TRUE(single.IsReliable());
@@ -124,7 +124,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
 /// The energy follows from half of the cycle and equals the energy of the whole cycle.
 TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 5);
   for (const MultigridOptions& options : OtherCycles())
   {
@@ -151,7 +151,7 @@ TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 
 TEST(SingleMultigrid, ColumnsKnowNothingOfEachOtherNorOfThreads)
 {
-  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 5);
+  const Discretization on = Discretize(TrefoilTube(120, 16, 0.12), 5);
   const SingleMultigrid one = MakeSingle(on, 1);
   const SingleMultigrid three = MakeSingle(on, 3);
   const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 32);
@@ -167,7 +167,7 @@ TEST(SingleMultigrid, ColumnsKnowNothingOfEachOtherNorOfThreads)
 
 TEST(SingleMultigrid, IsTheSameForBlocksInSinglePrecision)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid cycle = MakeSingle(on);
   const Vectors<float> r = RandomColumns(on.space.Finest().numberOfFunctions, 21).cast<float>();
   Vectors<float> z;
@@ -181,7 +181,7 @@ TEST(SingleMultigrid, IsTheSameForBlocksInSinglePrecision)
 
 TEST(SingleMultigrid, HandsOverOnlyWhatIsWanted)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid single = MakeSingle(on);
   const Multigrid multigrid = MakeDouble(on);
   const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 5);
@@ -207,7 +207,7 @@ TEST(SingleMultigrid, HandsOverOnlyWhatIsWanted)
 
 TEST(SingleMultigrid, RefusesWhatItCannotDo)
 {
-  const Discretisation on = Discretise(GeodesicSphere(8), 3);
+  const Discretization on = Discretize(GeodesicSphere(8), 3);
   const SingleMultigrid single = MakeSingle(on);
   MultiVector z;
   const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 33);
@@ -223,16 +223,16 @@ TEST(SingleMultigrid, RefusesWhatItCannotDo)
 /// Pivots are about the square of the faces' slope: 3e-6 at 0.1 degrees, 3e-8 at 0.01.
 TEST(SingleMultigrid, IsReliableWhereFunctionsDoNotAlmostVanish)
 {
-  EXPECT_TRUE(MakeSingle(Discretise(GeodesicSphere(32), 5)).IsReliable());
-  EXPECT_TRUE(MakeSingle(Discretise(TiltedBox(0.1), 5)).IsReliable());
-  EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.01), 5)).IsReliable());
-  EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.0), 5)).IsReliable());
+  EXPECT_TRUE(MakeSingle(Discretize(GeodesicSphere(32), 5)).IsReliable());
+  EXPECT_TRUE(MakeSingle(Discretize(TiltedBox(0.1), 5)).IsReliable());
+  EXPECT_FALSE(MakeSingle(Discretize(TiltedBox(0.01), 5)).IsReliable());
+  EXPECT_FALSE(MakeSingle(Discretize(TiltedBox(0.0), 5)).IsReliable());
 }
 
 /// Two threads use one hierarchy, at the same time and one after the other.
 TEST(SingleMultigrid, SeveralThreadsMayCycleAtTheSameTime)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid cycle = MakeSingle(on, 1);
   constexpr int Times = 8;
   std::vector<MultiVector> r(Times);
@@ -247,7 +247,7 @@ TEST(SingleMultigrid, SeveralThreadsMayCycleAtTheSameTime)
   EXPECT_TRUE(alone == together);
 }
 
-Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid, double tolerance = 1e-8)
+Spectrum Solve(const Discretization& on, const MultigridOptions& multigrid, double tolerance = 1e-8)
 {
   SpectrumOptions options;
   options.numberOfModes = 20;
@@ -258,10 +258,10 @@ Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid, doub
 
 TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDoAndSingleForAnyCycle)
 {
-  const Spectrum flat = Solve(Discretise(TiltedBox(0.01), 5), Standard);
+  const Spectrum flat = Solve(Discretize(TiltedBox(0.01), 5), Standard);
   EXPECT_TRUE(flat.converged);
   EXPECT_FALSE(flat.singlePrecision);
-  const Discretisation sphere = Discretise(GeodesicSphere(32), 5);
+  const Discretization sphere = Discretize(GeodesicSphere(32), 5);
   MultigridOptions others = Standard;
   others.smoother = SmootherType::GaussSeidel;
   const Spectrum inDouble = Solve(sphere, others, 1e-10);
@@ -284,7 +284,7 @@ TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDoAndSingleForAnyCycle)
 
 TEST(SpectrumCycle, LooksAtHowEveryLevelIsRelaxed)
 {
-  const Discretisation on = Discretise(GeodesicSphere(8), 3);
+  const Discretization on = Discretize(GeodesicSphere(8), 3);
   std::vector<MultigridLevel> levels =
     BuildMultigridLevels(ViewOf(on.space, on.system), Shift, 1.0, Standard);
   EXPECT_TRUE(FitSinglePrecision(levels, Standard));
@@ -298,7 +298,7 @@ TEST(SpectrumCycle, LooksAtHowEveryLevelIsRelaxed)
 
 /// The eigenproblem of the finest level, without a preconditioner.
 template<class Real>
-SpectralProblem<Real> ProblemOn(const Discretisation& on, const Constants& constants)
+SpectralProblem<Real> ProblemOn(const Discretization& on, const Constants& constants)
 {
   SpectralProblem<Real> problem;
   problem.stiffness = StiffnessMatrix(on.space, on.system);
@@ -312,7 +312,7 @@ SpectralProblem<Real> ProblemOn(const Discretisation& on, const Constants& const
 /// products of vectors that follow from coefficients are wrong in the second digit.
 TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
 {
-  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
+  const Discretization on = Discretize(TrefoilTube(120, 16, 0.12), 4);
   const SingleMultigrid cycle = MakeSingle(on);
   const Constants constants(
     MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);
@@ -341,7 +341,7 @@ TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
 /// A preconditioner that is no better than none, with the cycle as its fallback.
 TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
 {
-  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Discretization on = Discretize(Torus(64, 32, 1.0, 0.4), 5);
   const Multigrid multigrid = MakeDouble(on);
   const Constants constants(
     MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);

@@ -49,7 +49,7 @@ std::unique_ptr<Smoother> SequentialSweep(
   order.dof.size = 1;
   order.dof.unknown = unknowns;
   order.blockBegin = { 0, static_cast<Id>(unknowns.size()) };
-  order.colourBegin = { 0, 1 };
+  order.colorBegin = { 0, 1 };
   return MakeGaussSeidel(level.A, order);
 }
 
@@ -106,11 +106,11 @@ TEST(SliceGaussSeidelSlabs, SlabsAreHighEnough)
   EXPECT_TRUE(SlabBoundaries({}, 1).empty());
 }
 
-TEST(SliceGaussSeidelSlabs, CyclesAsTheColouredOneDoes)
+TEST(SliceGaussSeidelSlabs, CyclesAsTheColoredOneDoes)
 {
   MultigridOptions options;
   options.preSweeps = options.postSweeps = 1;
-  options.sweepsPerSynchronisation = 2;
+  options.sweepsPerSynchronization = 2;
   options.smoother = SmootherType::SliceGaussSeidel;
   const Multigrid multigrid(
     testing::SampledHierarchy(testing::SolidCube(4), 4, 1, 0.1, 1.0), options);

@@ -33,7 +33,7 @@ PatchOrder OneBlock(const UnknownGroups& groups)
 {
   PatchOrder order;
   order.blockBegin = { 0, groups.Count() };
-  order.colourBegin = { 0, 1 };
+  order.colorBegin = { 0, 1 };
   order.dof = groups;
   return order;
 }
@@ -483,10 +483,10 @@ INSTANTIATE_TEST_SUITE_P(Widths, BothSmoothers,
 /// Two blocks of one color neither share unknowns nor are coupled by the matrix.
 void ExpectUncoupled(const SparseMatrix& A, const PatchOrder& order)
 {
-  for (std::size_t colour = 0; colour + 1 < order.colourBegin.size(); ++colour)
+  for (std::size_t color = 0; color + 1 < order.colorBegin.size(); ++color)
   {
     std::vector<Id> blockOf(A.rows, -1);
-    for (Id block = order.colourBegin[colour]; block < order.colourBegin[colour + 1]; ++block)
+    for (Id block = order.colorBegin[color]; block < order.colorBegin[color + 1]; ++block)
     {
       for (Id patch = order.blockBegin[block]; patch < order.blockBegin[block + 1]; ++patch)
       {
@@ -508,18 +508,18 @@ void ExpectUncoupled(const SparseMatrix& A, const PatchOrder& order)
   }
 }
 
-TEST(OrderPatches, BlocksOfAColourAreNotCoupled)
+TEST(OrderPatches, BlocksOfAColorAreNotCoupled)
 {
   for (const int depth : { 1, 3, 4, 6 })
   {
     const auto plane =
       testing::SampledHierarchy(testing::TiltedPlane(depth, 0.3, 0.7), depth, depth, 1.0, 1.0);
     ExpectUncoupled(plane[0].A, plane[0].order);
-    EXPECT_LE(plane[0].order.colourBegin.size(), 9u);
+    EXPECT_LE(plane[0].order.colorBegin.size(), 9u);
   }
   const auto solid = testing::SampledHierarchy(testing::SolidCube(5), 5, 5, 1.0, 1.0);
   ExpectUncoupled(solid[0].A, solid[0].order);
-  EXPECT_EQ(solid[0].order.colourBegin.size(), 9u);
+  EXPECT_EQ(solid[0].order.colorBegin.size(), 9u);
   EXPECT_EQ(solid[0].order.blockBegin.size(), 65u);
 }
 

@@ -1,5 +1,5 @@
 // Patches relaxed on stencils of the grid in single precision, compared with double precision.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Equations/Poisson.h"
 #include "Meshes.h"
 #include "Multigrid/StencilBlocks.h"

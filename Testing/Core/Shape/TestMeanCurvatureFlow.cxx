@@ -544,7 +544,7 @@ TEST_P(MeanCurvatureFlows, WhatIsHeldIsAComponentsOwnMatter)
     ASSERT_EQ(flow.Advance({}).end, FlowEnd::None);
   }
   const std::vector<Vec3> points = flow.Points();
-  Vec3 centre = Vec3::Zero();
+  Vec3 center = Vec3::Zero();
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     if (static_cast<Id>(k) < first)
@@ -553,10 +553,10 @@ TEST_P(MeanCurvatureFlows, WhatIsHeldIsAComponentsOwnMatter)
     }
     else
     {
-      centre += (points[k] - on.mesh->points[k]) / double(points.size() - first);
+      center += (points[k] - on.mesh->points[k]) / double(points.size() - first);
     }
   }
-  EXPECT_LT(centre.norm(), 1e-3); // the sphere shrinks in place
+  EXPECT_LT(center.norm(), 1e-3); // the sphere shrinks in place
   double radius = 0.3;
   for (int step = 0; step < 3; ++step)
   {

@@ -61,7 +61,7 @@ StitchOptions Options(int threads = 0)
   return options;
 }
 
-Vec3 CentreOf(const TriangleMesh& mesh, Id triangle)
+Vec3 CenterOf(const TriangleMesh& mesh, Id triangle)
 {
   const auto& corner = mesh.triangles[triangle];
   return (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
@@ -197,9 +197,9 @@ TEST_P(Stitching, TakesOtherScansToAReference)
       scans.colors = { association, MultiVector(static_cast<Id>(scans.mesh.triangles.size()), 3) };
       for (Id t = 0; t < scans.colors.values.rows(); ++t)
       {
-        const Vec3 centre = CentreOf(scans.mesh, t);
-        scans.labels.values.push_back(ScanAt(centre));
-        SetRow(scans.colors.values, t, Seen(scans.labels.values.back(), ColorAt(centre)));
+        const Vec3 center = CenterOf(scans.mesh, t);
+        scans.labels.values.push_back(ScanAt(center));
+        SetRow(scans.colors.values, t, Seen(scans.labels.values.back(), ColorAt(center)));
       }
     }
     StitchOptions options = Options();
@@ -217,7 +217,7 @@ TEST_P(Stitching, TakesOtherScansToAReference)
       for (const Id row : scans.colors.RowsOf(t, scans.mesh.triangles[t]))
       {
         const Vec3 place = association == FieldAssociation::Points ? scans.mesh.points[row]
-                                                                   : CentreOf(scans.mesh, t);
+                                                                   : CenterOf(scans.mesh, t);
         const Vec3 truth = Seen(Reference, ColorAt(place));
         before += (scans.colors.values.row(row).transpose() - truth).squaredNorm();
         after += (stitched.values.row(row).transpose() - truth).squaredNorm();

@@ -1,5 +1,5 @@
 // The memory estimate against the sizes that are really built.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Meshes.h"
 #include "Solvers/MemoryEstimate.h"
 #include "Solvers/Requirements.h"

@@ -1,5 +1,5 @@
 // Tests the method as a whole against figures of the thesis and numbers that the project promises.
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Equations/Poisson.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
@@ -25,7 +25,7 @@ GridFunctions SpaceOf(const TriangleMesh& mesh, int depth, bool connectivityAwar
 }
 
 /// Returns a color: a smooth function of the position that neither space represents exactly.
-Field Colour(const TriangleMesh& mesh)
+Field Color(const TriangleMesh& mesh)
 {
   Field field;
   field.values.resize(mesh.points.size(), 1);
@@ -83,18 +83,18 @@ TEST_P(RotatedCube, TakesFewIterations)
   corners.points = { { 0, 0, 0 }, { 1e-3, 0, 0 }, { 0, 1e-3, 0 }, { 1, 1, 1 }, { 1 - 1e-3, 1, 1 },
     { 1, 1 - 1e-3, 1 } };
   corners.triangles = { { 0, 1, 2 }, { 3, 4, 5 } };
-  const TriangleMesh centred = Box(16, Vec3::Constant(-0.275), Vec3::Constant(0.275));
+  const TriangleMesh centered = Box(16, Vec3::Constant(-0.275), Vec3::Constant(0.275));
   const TriangleMesh cube =
-    Transform(centred, { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0, 1.0, Vec3::Constant(0.5));
+    Transform(centered, { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0, 1.0, Vec3::Constant(0.5));
   const TriangleMesh mesh = Join(cube, corners);
   const GridFunctions space = SpaceOf(mesh, depth);
   ASSERT_NEAR(space.GetGrid().spacing, std::pow(0.5, depth), 1e-15);
-  const PoissonSolution solution = FitField(mesh, space, Colour(mesh), 0.01);
+  const PoissonSolution solution = FitField(mesh, space, Color(mesh), 0.01);
   EXPECT_TRUE(solution.report.converged);
   EXPECT_LE(solution.report.iterations, 4 * depth - 8); // 12 at depth 5, 16 at depth 6; the
                                                         // benchmark covers depth 7
   RecordProperty("iterations", solution.report.iterations);
-  const PoissonSolution stabilized = FitField(mesh, space, Colour(mesh), 0.01, 256, 1e-2);
+  const PoissonSolution stabilized = FitField(mesh, space, Color(mesh), 0.01, 256, 1e-2);
   EXPECT_TRUE(stabilized.report.converged);
   EXPECT_LE(stabilized.report.iterations, 7); // at any depth
 }
@@ -161,10 +161,10 @@ TEST(Acceptance, SeparatedCubesConvergeFasterWhenConnectivityAware)
 
   // Every level is used. Otherwise the finest level, which consists of small components, would be
   // solved directly.
-  const Field colour = Colour(cubes);
+  const Field color = Color(cubes);
   const Index all = FunctionsPerPatch;
-  const SolveReport plainReport = FitField(cubes, plain, colour, 0.01, all).report;
-  const SolveReport awareReport = FitField(cubes, aware, colour, 0.01, all).report;
+  const SolveReport plainReport = FitField(cubes, plain, color, 0.01, all).report;
+  const SolveReport awareReport = FitField(cubes, aware, color, 0.01, all).report;
   EXPECT_TRUE(awareReport.converged);
   EXPECT_LT(awareReport.convergenceFactor, plainReport.convergenceFactor);
 }

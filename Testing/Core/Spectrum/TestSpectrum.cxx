@@ -15,7 +15,7 @@ using namespace gridfem::testing;
 
 TEST(Spectrum, SmallSpaceEqualsDenseReference)
 {
-  const Discretisation on = DiscretiseExactly(Torus(48, 24, 1.0, 0.4), 3);
+  const Discretization on = DiscretizeExactly(Torus(48, 24, 1.0, 0.4), 3);
   ASSERT_LE(on.space.Finest().numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 60, 1e-10);
   EXPECT_TRUE(spectrum.converged);
@@ -30,7 +30,7 @@ TEST(Spectrum, SmallSpaceEqualsDenseReference)
 
 TEST(Spectrum, NestedIterationEqualsDenseReference)
 {
-  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
+  const Discretization on = DiscretizeExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 30, 1e-11);
   EXPECT_TRUE(spectrum.converged);
@@ -47,7 +47,7 @@ TEST(Spectrum, ManyModesComeInWindows)
 {
   // Two windows. The second has few vectors to start from, because the coarser level is small. The
   // dense solver shows that no pair is missed.
-  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
+  const Discretization on = DiscretizeExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 700);
   const Spectrum spectrum = Solve(on, 170, 1e-8, 1);
   EXPECT_TRUE(spectrum.converged);
@@ -69,7 +69,7 @@ TEST(Spectrum, UnitSphere)
   double errors[3];
   for (const int depth : { 4, 5, 6 })
   {
-    const Discretisation on = DiscretiseExactly(mesh, depth);
+    const Discretization on = DiscretizeExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 100, 1e-6); // far below the discretization error
     EXPECT_TRUE(spectrum.converged);
     CheckPairs(on, spectrum);
@@ -94,13 +94,13 @@ TEST(Spectrum, FlatSquare)
   std::sort(exact.begin(), exact.end());
   exact.resize(30);
   // Bilinear elements are (π k h)² / 12 too high. The worst case is k = 5 and h = 1/32: 2 %.
-  const Discretisation flat = DiscretiseExactly(mesh, 5);
+  const Discretization flat = DiscretizeExactly(mesh, 5);
   const Spectrum spectrum = Solve(flat, 30);
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(flat, spectrum);
   EXPECT_LT(LargestError(WorldValues(flat, spectrum), exact), 0.021);
   // Away from the grid's planes and diagonals, the eight functions of a cell act like four.
-  const Discretisation tilted = DiscretiseExactly(Transform(mesh, { 1, 2, 3 }, 0.7), 5);
+  const Discretization tilted = DiscretizeExactly(Transform(mesh, { 1, 2, 3 }, 0.7), 5);
   EXPECT_LT(LargestError(WorldValues(tilted, Solve(tilted, 30)), exact), 0.021);
 }
 
@@ -120,7 +120,7 @@ TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
   mesh.triangles.push_back({ first + 4, first + 4, first });
   for (const int depth : { 3, 5 }) // dense, and nested
   {
-    const Discretisation on = DiscretiseExactly(mesh, depth);
+    const Discretization on = DiscretizeExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 16);
     EXPECT_TRUE(spectrum.converged);
     CheckPairs(on, spectrum);
@@ -135,7 +135,7 @@ TEST(Spectrum, MoreModesThanExist)
 {
   // A flat square in a grid plane, 4 x 4 cells, has 25 functions of the plane. The others vanish on
   // it.
-  const Discretisation on = DiscretiseExactly(FlatRectangle(4, 4), 2);
+  const Discretization on = DiscretizeExactly(FlatRectangle(4, 4), 2);
   const Spectrum spectrum = Solve(on, 100);
   EXPECT_TRUE(spectrum.truncated);
   EXPECT_TRUE(spectrum.converged);
@@ -147,7 +147,7 @@ TEST(Spectrum, MoreModesThanExist)
 TEST(Spectrum, ReturnsNoMoreModesThanAskedAndAllWithAMass)
 {
   const TriangleMesh mesh = { { { 0, 0, 0 }, { 1, .3, .2 }, { .1, 1, .7 } }, { { 0, 1, 2 } } };
-  const Discretisation on = Discretise(mesh, 2);
+  const Discretization on = Discretize(mesh, 2);
   for (const int modes : { 5, 20, 50, 64 })
   {
     const Spectrum spectrum = Solve(on, modes);
@@ -168,7 +168,7 @@ TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
 {
   for (const auto& [modes, depth, tolerance] : { std::tuple(20, 4, 1e-8), std::tuple(50, 5, 1e-6) })
   {
-    const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), depth);
+    const Discretization on = DiscretizeExactly(TrefoilTube(120, 16, 0.12), depth);
     const Spectrum one = Solve(on, modes, tolerance, 1);
     for (const int threads : { 1, 2, 3, 4 })
     {
@@ -183,9 +183,9 @@ TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
 TEST(Spectrum, ScalesWithTheInverseSquareOfLength)
 {
   const TriangleMesh mesh = Torus(48, 24, 1.0, 0.4);
-  const Discretisation small = DiscretiseExactly(mesh, 4);
-  const Discretisation large =
-    DiscretiseExactly(Transform(mesh, { 0, 0, 1 }, 0.0, 1024.0), 4); // exact in binary
+  const Discretization small = DiscretizeExactly(mesh, 4);
+  const Discretization large =
+    DiscretizeExactly(Transform(mesh, { 0, 0, 1 }, 0.0, 1024.0), 4); // exact in binary
   const std::vector<double> a = WorldValues(small, Solve(small, 20));
   const std::vector<double> b = WorldValues(large, Solve(large, 20));
   for (std::size_t j = 1; j < a.size(); ++j)
@@ -206,7 +206,7 @@ TEST(Spectrum, HasEveryConstantOnceOnTrianglesMuchSmallerThanCells)
       { corner, corner + Vec3(-0.003, 0.0034, 0.0024), corner + Vec3(-0.0029, 0.0033, 0.0002) });
     mesh.triangles.push_back({ first, first + 1, first + 2 });
   }
-  const Discretisation on = DiscretiseExactly(mesh, 3);
+  const Discretization on = DiscretizeExactly(mesh, 3);
   const Spectrum spectrum = Solve(on, 10, 1e-6);
   EXPECT_EQ(std::count_if(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(),
               [](double value) { return value < 1e-6; }),
@@ -215,7 +215,7 @@ TEST(Spectrum, HasEveryConstantOnceOnTrianglesMuchSmallerThanCells)
 
 TEST(Spectrum, ReportsWhatHasNotConverged)
 {
-  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);
+  const Discretization on = DiscretizeExactly(GeodesicSphere(16), 4);
   SpectrumOptions options;
   options.numberOfModes = 20;
   options.tolerance = 1e-12;
@@ -229,7 +229,7 @@ TEST(Spectrum, ReportsWhatHasNotConverged)
 
 TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
 {
-  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);
+  const Discretization on = DiscretizeExactly(GeodesicSphere(16), 4);
   SpectrumOptions options;
   options.numberOfModes = 20;
   std::vector<double> reports;
@@ -255,7 +255,7 @@ TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
 
 TEST(Spectrum, TenThousandModesReportFromTheStartAndStopAtOnce)
 {
-  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 6);
+  const Discretization on = DiscretizeExactly(GeodesicSphere(16), 6);
   SpectrumOptions options;
   options.numberOfModes = 10000;
   ASSERT_GT(on.space.Finest().numberOfFunctions, options.numberOfModes);
@@ -271,7 +271,7 @@ TEST(Spectrum, TenThousandModesReportFromTheStartAndStopAtOnce)
 
 TEST(Spectrum, RefusesOptionsOutOfRange)
 {
-  const Discretisation on = DiscretiseExactly(Box(2), 2);
+  const Discretization on = DiscretizeExactly(Box(2), 2);
   EXPECT_THROW(Solve(on, 0), InvalidInput);
   EXPECT_THROW(Solve(on, 3, 0.0), InvalidInput);
   EXPECT_THROW(Solve(on, 3, 1.0), InvalidInput);

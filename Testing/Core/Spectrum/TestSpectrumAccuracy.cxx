@@ -19,7 +19,7 @@ TEST(Spectrum, EstimatedErrorsAreTheTrueOnesWithinAFactorOfTwo)
 {
   const TriangleMesh mesh = GeodesicSphere(96);
   const std::vector<double> exact = SphereValues(100);
-  const Discretisation on = DiscretiseExactly(mesh, 5);
+  const Discretization on = DiscretizeExactly(mesh, 5);
   const Spectrum spectrum = Solve(on, 100);
   const std::vector<double> values = WorldValues(on, spectrum);
   EXPECT_EQ(spectrum.estimatedErrors[0], 0.0);
@@ -58,7 +58,7 @@ TEST(Spectrum, ErrorsFollowFromTheRateOfThreeLevels)
 /// Orthonormal modes in another order, mixed within a pair, and one that is not there.
 TEST(Spectrum, ModesAreMatchedByTheirFunctions)
 {
-  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);
+  const Discretization on = DiscretizeExactly(GeodesicSphere(16), 4);
   const Spectrum spectrum = Solve(on, 9);
   SpectralProblem<double> problem;
   problem.mass = MassMatrix(on.space, on.system);
@@ -115,7 +115,7 @@ TEST(Spectrum, ErrorsOfAThinPlateAreFoundOrNotTrusted)
   std::sort(exact[1].begin(), exact[1].end());
   for (const int depth : { 4, 5, 6 })
   {
-    const Discretisation on = DiscretiseExactly(mesh, depth);
+    const Discretization on = DiscretizeExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 10);
     const std::vector<double> values = WorldValues(on, spectrum);
     const MultiVector atPoints =
@@ -154,12 +154,12 @@ TEST(Spectrum, TheDepthFollowsFromTheWantedAccuracy)
   for (const double accuracy : { 0.05, 0.004 })
   {
     int depth = FirstDepthForAccuracy(9500, 36, accuracy); // functions of a sphere at depth 5
-    Discretisation on = DiscretiseExactly(mesh, depth);
+    Discretization on = DiscretizeExactly(mesh, depth);
     Spectrum spectrum = Solve(on, 36);
     for (int next; (next = DepthForAccuracy(spectrum.estimatedErrors, depth, accuracy)) != depth;)
     {
       depth = next;
-      on = DiscretiseExactly(mesh, depth);
+      on = DiscretizeExactly(mesh, depth);
       spectrum = Solve(on, 36);
     }
     EXPECT_LE(LargestError(WorldValues(on, spectrum), exact), 1.2 * accuracy);

@@ -12,7 +12,7 @@ namespace
 
 using namespace gridfem::testing;
 
-Spectrum SolveWhole(const Discretisation& on, int modes)
+Spectrum SolveWhole(const Discretization& on, int modes)
 {
   SpectrumOptions options;
   options.numberOfModes = modes;
@@ -26,8 +26,8 @@ TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
   // that is nearly constant on both boxes there is none of the finer pairs.
   const TriangleMesh boxes =
     testing::Join(Box(6, { 0, 0, 0 }, { 1, 1, 0.3 }), Box(6, { 0, 0, 0.41 }, { 1, 1, 0.71 }));
-  const Discretisation plain = DiscretiseExactly(boxes, 5, false);
-  const Discretisation aware = DiscretiseExactly(boxes, 5, true);
+  const Discretization plain = DiscretizeExactly(boxes, 5, false);
+  const Discretization aware = DiscretizeExactly(boxes, 5, true);
   ASSERT_EQ(plain.space.numberOfComponents, 2);
   const std::vector<Index> coarse = FunctionComponents(plain.space.levels[2]);
   ASSERT_EQ(*std::max_element(coarse.begin(), coarse.end()), 0);
@@ -48,7 +48,7 @@ TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
 TEST(Spectrum, AxisAlignedCubeHasItsMultiplicities)
 {
   // On grid planes, half of the functions of a cell vanish on the surface, so M is singular.
-  const Discretisation on = DiscretiseExactly(Box(4), 4);
+  const Discretization on = DiscretizeExactly(Box(4), 4);
   const Spectrum spectrum = Solve(on, 20, 1e-10);
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(on, spectrum);
@@ -74,7 +74,7 @@ TEST(Spectrum, EqualSpheresShareEveryEigenvalue)
   }
   for (const bool connectivityAware : { true, false })
   {
-    const Discretisation on = DiscretiseExactly(mesh, 5, connectivityAware);
+    const Discretization on = DiscretizeExactly(mesh, 5, connectivityAware);
     ASSERT_EQ(on.space.numberOfComponents, 3);
     const Spectrum spectrum = Solve(on, 48);
     EXPECT_TRUE(spectrum.converged);
@@ -94,7 +94,7 @@ TEST(Spectrum, SpheresInEqualCellsShareEveryEigenvalueExactly)
   {
     mesh = Join(mesh, Transform(GeodesicSphere(8), { 0, 0, 1 }, 0.0, 1.0, { x, 0, 0 }));
   }
-  const Discretisation on = DiscretiseExactly(mesh, 5);
+  const Discretization on = DiscretizeExactly(mesh, 5);
   const Spectrum spectrum = Solve(on, 75); // 3 (1 + 3 + 5 + 7 + 9): all of degree 4
   EXPECT_TRUE(spectrum.converged);
   EXPECT_FALSE(spectrum.cutsMultiplet);
@@ -107,7 +107,7 @@ TEST(Spectrum, SpheresInEqualCellsShareEveryEigenvalueExactly)
 
 TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
 {
-  const Discretisation on = DiscretiseExactly(GeodesicSphere(24), 5);
+  const Discretization on = DiscretizeExactly(GeodesicSphere(24), 5);
   for (const int modes : { 2, 10, 15, 16 })
   {
     const int whole = modes == 2 ? 4 : 16; // 1 + 3, 1 + 3 + 5 + 7
@@ -125,7 +125,7 @@ TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
 TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
 {
   // The first value of 8 equal cubes is 24-fold, more than the guards cover.
-  const Discretisation on = DiscretiseExactly(CubeArray(2, 2, 1.0), 4);
+  const Discretization on = DiscretizeExactly(CubeArray(2, 2, 1.0), 4);
   ASSERT_EQ(on.space.numberOfComponents, 8);
   EXPECT_EQ(SolveWhole(on, 3).eigenvalues.size(), 3u); // constants are not completed
   EXPECT_EQ(SolveWhole(on, 3).numberOfConstants, 8);
@@ -140,7 +140,7 @@ TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
 TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
 {
   // A cube has 4 cells a side and a period of 6 cells, so all have the same position in the grid.
-  const Discretisation on = DiscretiseExactly(CubeArray(3, 2, 0.5), 4);
+  const Discretization on = DiscretizeExactly(CubeArray(3, 2, 0.5), 4);
   ASSERT_EQ(on.space.numberOfComponents, 27);
   ASSERT_GT(on.space.levels[on.system.elements.size() - 1].numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 40);
@@ -153,7 +153,7 @@ TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
 
 TEST(Spectrum, OnlyZeroModesAskedFor)
 {
-  const Discretisation on = DiscretiseExactly(CubeArray(2, 2, 1.0), 4);
+  const Discretization on = DiscretizeExactly(CubeArray(2, 2, 1.0), 4);
   ASSERT_EQ(on.space.numberOfComponents, 8);
   for (const int modes : { 1, 5, 8 })
   {

@@ -21,7 +21,7 @@ TEST(SpectrumPrecision, PairsAreThoseOfDoublePrecision)
   for (const TriangleMesh& mesh :
     { GeodesicSphere(32), Torus(64, 32, 1.0, 0.4), TrefoilTube(120, 16, 0.12) })
   {
-    const Discretisation on = DiscretiseExactly(mesh, 5);
+    const Discretization on = DiscretizeExactly(mesh, 5);
     ASSERT_GT(on.space.Finest().numberOfFunctions, 1200); // otherwise it would be solved densely
     const Spectrum single = Solve(on, 60, Single);
     const Spectrum wide = Solve(on, 60, Double);
@@ -39,7 +39,7 @@ TEST(SpectrumPrecision, PairsAreThoseOfDoublePrecision)
 
 TEST(SpectrumPrecision, NoPairIsMissedInWindows)
 {
-  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
+  const Discretization on = DiscretizeExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 700);
   const Spectrum spectrum = Solve(on, 170, Single, 1);
   EXPECT_TRUE(spectrum.converged);
@@ -58,7 +58,7 @@ TEST(SpectrumPrecision, NoPairIsMissedInWindows)
 /// Rounding the vectors disturbs the lowest values most, and more on deeper grids.
 TEST(SpectrumPrecision, LowValuesOfDeepGridsKeepTheirDigits)
 {
-  const Discretisation on = DiscretiseExactly(Torus(64, 32, 1.0, 0.05), 8);
+  const Discretization on = DiscretizeExactly(Torus(64, 32, 1.0, 0.05), 8);
   const Spectrum single = Solve(on, 6, Single);
   const Spectrum wide = Solve(on, 6, 1e-10);
   EXPECT_TRUE(single.converged);
@@ -76,7 +76,7 @@ TEST(SpectrumPrecision, WhatItLosesIsComputedInDoublePrecision)
   TriangleMesh sliver;
   sliver.points = { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + 1e-9 } };
   sliver.triangles = { { 0, 1, 2 } };
-  const Discretisation on = DiscretiseExactly(sliver, 4);
+  const Discretization on = DiscretizeExactly(sliver, 4);
   const Spectrum single = Solve(on, 100, Single);
   const Spectrum wide = Solve(on, 100, Double);
   EXPECT_GT(single.eigenvalues.size(), 40u); // 49 have a mass

@@ -2,7 +2,7 @@
 #include "Spectrum/Spectrum.h"
 
 #include "Dense.h"
-#include "Discretisation.h"
+#include "Discretization.h"
 #include "Spaces.h"
 #include "Spaces/HatSpace.h"
 #include "Support/HatSystem.h"

@@ -61,7 +61,7 @@ def check_picture(name):
     _, counts = numpy.unique(pixels, axis=0, return_counts=True)
     background = counts.max() / counts.sum()
     if len(counts) < 50 or not 0.2 < background < 0.97:
-        sys.exit(f"{path} has {len(counts)} colours, and one on {100 * background:.0f} % of it")
+        sys.exit(f"{path} has {len(counts)} colors, and one on {100 * background:.0f} % of it")
 
 
 def check_shown(name):
@@ -87,16 +87,16 @@ def check_shown(name):
     association, array = surfaces[0].ColorArrayName
     wanted_array, colors = plugin.colors_of(name)
     if (array or "") != wanted_array:
-        sys.exit(f"{name}: coloured by {array}")
+        sys.exit(f"{name}: colored by {array}")
     if surfaces[0].Representation != "Surface":
         sys.exit(f"{name}: shown as {surfaces[0].Representation}")
     if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
-        sys.exit(f"{name}: the colours are not shown as they are")
+        sys.exit(f"{name}: the colors are not shown as they are")
     if not array or not surfaces[0].MapScalars:  # the shape alone, or unchanged colors
         simple.ResetSession()
         return
     if len(seen) != len(surfaces) + 1:
-        sys.exit(f"{name}: no colour bar is shown")
+        sys.exit(f"{name}: no color bar is shown")
     data = source.PointData if association == "POINTS" else source.CellData
     source.UpdatePipeline(simple.GetActiveView().ViewTime)
     component = -1 if data[array].GetNumberOfComponents() > 1 else 0
@@ -107,7 +107,7 @@ def check_shown(name):
     points = surfaces[0].LookupTable.RGBPoints
     between = (points[0], points[-4])
     if not all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(wanted, between)):
-        sys.exit(f"{name}: colours between {between}, values between {wanted}")
+        sys.exit(f"{name}: colors between {between}, values between {wanted}")
     simple.ResetSession()
 
 

@@ -135,13 +135,13 @@ Id FindSourceTriangle(
   const ClippedMesh& clipped, Id piece, std::pair<Id, Id> candidates, const TriangleMesh& source)
 {
   const Index* corner = &clipped.corners[clipped.pieceBegin[piece]];
-  const Vec3 centre =
+  const Vec3 center =
     (clipped.position[corner[0]] + clipped.position[corner[1]] + clipped.position[corner[2]]) / 3.0;
   Id best = candidates.first;
   double bestInside = -std::numeric_limits<double>::infinity();
   for (Id triangle = candidates.first; triangle < candidates.second; ++triangle)
   {
-    const auto weight = WeightsIn(source, clipped.grid, triangle, centre);
+    const auto weight = WeightsIn(source, clipped.grid, triangle, center);
     const double inside = std::min({ weight[0], weight[1], weight[2] });
     if (inside > bestInside)
     {
@@ -149,7 +149,7 @@ Id FindSourceTriangle(
       best = triangle;
     }
   }
-  if (!(DistanceFromTriangle(source, clipped.grid, best, centre) <= SameTriangle))
+  if (!(DistanceFromTriangle(source, clipped.grid, best, center) <= SameTriangle))
   {
     RefuseForeignBasis("its cells are in another order or join other points.");
   }

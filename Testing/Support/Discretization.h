@@ -1,6 +1,6 @@
 // A mesh with a space and a system on it, for tests that start from both.
-#ifndef GridFEM_Testing_Discretisation_h
-#define GridFEM_Testing_Discretisation_h
+#ifndef GridFEM_Testing_Discretization_h
+#define GridFEM_Testing_Discretization_h
 
 #include "Spaces/GridSpace.h"
 
@@ -29,7 +29,7 @@ inline SparseMatrix StiffnessMatrix(const GridFunctions& space, const LevelOpera
   return ViewOf(space, system).Matrix(0, 0.0, 1.0);
 }
 
-struct Discretisation
+struct Discretization
 {
   GridFunctions space;
   LevelOperators system;
@@ -37,13 +37,13 @@ struct Discretisation
   double Spacing() const { return space.GetGrid().spacing; }
 };
 
-inline Discretisation Discretise(const TriangleMesh& mesh, int depth, int quadratureDegree = 2,
+inline Discretization Discretize(const TriangleMesh& mesh, int depth, int quadratureDegree = 2,
   bool connectivityAware = true, Index coarsestSize = 256)
 {
   SpaceOptions options;
   options.depth = depth;
   options.connectivityAware = connectivityAware;
-  Discretisation result;
+  Discretization result;
   result.space = BuildGridFunctions(mesh, options);
   result.system =
     BuildLevelOperators(result.space, TriangleRule(quadratureDegree), 0, coarsestSize);
