@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh_shortest_path.h>
 
 #include <limits>
+#include <numeric>
 
 namespace gridfem::benchmarks
 {
@@ -19,7 +20,8 @@ using Paths =
 
 } // namespace
 
-std::vector<double> PolyhedralDistances(const TriangleMesh& mesh, Id source)
+std::vector<double> PolyhedralDistances(
+  const TriangleMesh& mesh, Id source, const std::vector<Id>& targets)
 {
   Surface surface;
   std::vector<Surface::Vertex_index> vertex;
@@ -38,12 +40,19 @@ std::vector<double> PolyhedralDistances(const TriangleMesh& mesh, Id source)
   Paths paths(surface);
   paths.add_source_point(vertex[source]);
   std::vector<double> distance;
-  for (const Surface::Vertex_index point : vertex)
+  for (const Id target : targets)
   {
-    const double found = paths.shortest_distance_to_source_points(point).first;
+    const double found = paths.shortest_distance_to_source_points(vertex[target]).first;
     distance.push_back(found < 0.0 ? std::numeric_limits<double>::infinity() : found);
   }
   return distance;
+}
+
+std::vector<double> PolyhedralDistances(const TriangleMesh& mesh, Id source)
+{
+  std::vector<Id> all(mesh.points.size());
+  std::iota(all.begin(), all.end(), Id(0));
+  return PolyhedralDistances(mesh, source, all);
 }
 
 } // namespace gridfem::benchmarks

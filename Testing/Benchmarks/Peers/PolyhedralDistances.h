@@ -10,8 +10,12 @@
 namespace gridfem::benchmarks
 {
 
-/// From one point to all, one thread. Empty where the mesh is no manifold; infinity at points that
-/// the source does not reach.
+/// From one point to others, one thread. Empty where the mesh is no manifold; infinity at points
+/// that the source does not reach.
+std::vector<double> PolyhedralDistances(
+  const TriangleMesh& mesh, Id source, const std::vector<Id>& targets);
+
+/// To all points.
 std::vector<double> PolyhedralDistances(const TriangleMesh& mesh, Id source);
 
 } // namespace gridfem::benchmarks
