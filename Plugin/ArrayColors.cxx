@@ -45,7 +45,7 @@ enum class Colors
 
 constexpr const char* MapEnding = ".PVLookupTable"; // of the name under which a map is registered
 
-/// Which arrays have which colors.
+/// The colors that a hint chooses for arrays.
 struct Choice
 {
   std::string array; // ends in *: all that begin so

@@ -1,4 +1,4 @@
-// Chooses suitable colors for an array of a filter. The XML of the filter has the hint:
+// Chooses suitable colors for an array of a filter. The XML of the filter needs this hint:
 //
 //   <Hints>
 //     <InitializationHelper class="vtkSMArrayColors" array="Mode" colors="diverging" steps="apart"

@@ -1,5 +1,5 @@
 // Effects of the first Apply of a filter, other than colors (ArrayColors.h). The XML of the filter
-// has the hints:
+// needs these hints:
 //
 //   <Hints>
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
@@ -13,11 +13,10 @@
 //   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, unless another
 //                       source has time steps that would change with it
 //   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it, or has lost the array
-//   that
-//                       colored it. ParaView looks only once, when it first shows a filter, and the
-//                       user may choose arrays later. The user's own coloring stays. With
+//                       that colored it. ParaView looks only once, when it first shows a filter,
+//                       and the user may choose arrays later. The user's own coloring stays. With
 //                       direct="bytes", three or four bytes are shown directly as colors, without a
-//                       bar; with "fractions", so are numbers from 0 to 1
+//                       bar. With direct="fractions", numbers from 0 to 1 are shown like this
 //
 // The XML of a chart has the hint:
 //

@@ -1,5 +1,5 @@
 // Makes choices for a new filter that a user sees and can change before the first Apply. The XML of
-// the filter has the hints:
+// the filter needs these hints:
 //
 //   <Hints>
 //     <InitializationHelper class="vtkSMChoosesArray" property="ValueArray"
@@ -16,8 +16,8 @@
 //   vtkSMChoosesPoints  a table of points and values gets an example: four points spread over the
 //                       numbers of the points, with the values 0 to 3. Only for polygonal data
 //
-// Without ParaView's window nothing is chosen, because scripts make their own choices. Neither is
-// what the user has saved as a default.
+// Without ParaView's window nothing is chosen, because scripts make their own choices. Values that
+// the user has saved as defaults also stay.
 #ifndef GridFEM_FirstChoices_h
 #define GridFEM_FirstChoices_h
 
