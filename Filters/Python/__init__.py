@@ -3,15 +3,15 @@
     import gridfem
     eigenvalues, modes = gridfem.spectrum(points, cells, 50)
 
-`points` is an array of N rows with three coordinates. `cells` is an array of M rows with the point ids
-of a polygon each: triangles, or any other number of corners. `gridfem.arrays(mesh)` gives both for a
-mesh of PyVista, trimesh or meshio. Values with N rows belong to points, values with M rows to cells.
-Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace="HatFunctions"`, are properties of the
-filter that does the work. The pages in Plugin/Documentation describe them. A choice is a name or its
-number. A value out of range raises Error.
+`points` is an array of N rows with three coordinates. `cells` is an array of M rows. Each row has the
+point ids of a polygon: a triangle, or any other number of corners. `gridfem.arrays(mesh)` returns both
+arrays for a mesh of PyVista, trimesh or meshio. Values with N rows belong to points, values with M rows
+to cells. Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace="HatFunctions"`, are
+properties of the filter that does the work. The pages in Plugin/Documentation describe them. A choice is
+a name or its number. A value out of range raises Error.
 
-A part of a mesh is its cells: `cells[labels == 1]` computes there as if the rest were cut away. Results
-are NaN at points that no cell uses.
+To compute on a part of a mesh, pass only its cells, such as `cells[labels == 1]`. The rest counts as cut
+away. Results are NaN at points that no cell uses.
 
 The package comes in two forms with the same functions and results. The form beside ParaView's plugin
 runs the filters. On several MPI ranks each rank computes alone, on its own arrays. The filters
@@ -74,11 +74,14 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
             flux=None, **properties):
     """Computes a function that is close to given values, with gradients close to given gradients.
 
-    values: N or M rows; None takes the coordinates. gradients: a vector for each column of the
-    values; None takes zero, which smooths. weights: weights of the values; values
-    of weight 0 may be NaN. held: true at points where the values stay. gradient_scale: a factor on the gradients. flux: the slope of the
-    solution out of the surface, at the points of its boundary. ScreeningWeight determines how much
-    values count. UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
+    values: N or M rows. None takes the coordinates.
+    gradients: a vector for each column of the values. None takes zero, which smooths.
+    weights: weights of the values. Values of weight 0 may be NaN.
+    held: true at points where the values stay.
+    gradient_scale: a factor on the gradients.
+    flux: the slope of the solution out of the surface, at the points of its boundary.
+    ScreeningWeight determines how much values count. UseValueGradient and GradientScale sharpen.
+    FillUnknown fills in NaN.
     """
     given = {"values": values, "gradients": gradients, "weights": weights, "held": held,
              "gradient_scale": gradient_scale, "flux": flux}
@@ -110,7 +113,7 @@ def signed_distance(points, cells, labels, inside=1, **properties):
 
 
 def farthest_points(points, cells, number, **properties):
-    """Finds points spread evenly over the surface, each as far as possible from those before it.
+    """Finds points spread evenly over the surface, each as far as possible from the points before it.
 
     Returns three arrays. The first has the ids of the found points in the order in which they were
     found. The others have, for each point of the mesh, the id of the nearest found point and the
@@ -124,8 +127,8 @@ def farthest_points(points, cells, number, **properties):
 def distance_matrix(points, cells, ids, **properties):
     """Computes the distances along the surface between all points with the given ids, exactly on its triangles.
 
-    Returns a symmetric array (K, K) for K ids. It is NaN between connected components. `distance` is faster
-    for distances to all points of the surface.
+    Returns a symmetric array (K, K) for K ids. The distance between points of different connected
+    components is NaN. `distance` is faster for distances to all points of the surface.
     """
     ids = _inputs.ids("ids", ids)
     if ids.size == 0:
@@ -145,11 +148,11 @@ def distance_matrix(points, cells, ids, **properties):
 def path(points, cells, ids, closed=False, **properties):
     """Computes the shortest path along the surface through the points with the given ids, in their order.
 
-    closed: also from the last point to the first. Between two given points the path is locally
-    shortest, and exact in the triangles. Returns arrays of the shapes (K, 3), (K, 3), (K, 3): places
-    along the path, the corners of the triangle around each place, and their weights. The length is
-    `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`, and
-    `(weights * values[corners]).sum(axis=1)` are values at the points of the mesh along the path.
+    closed: the path returns from the last point to the first. Between two given points the path is
+    locally shortest, and exact in the triangles. Returns arrays of the shapes (K, 3), (K, 3), (K, 3):
+    places along the path, the corners of the triangle around each place, and their weights. The length is
+    `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`. Values at the points of the mesh become
+    `(weights * values[corners]).sum(axis=1)` along the path.
     """
     ids = _inputs.ids("ids", ids)
     if ids.size < 2:
@@ -170,9 +173,9 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
 
     Give one of three amounts. time: a squared length in ParameterUnits. fwhm: the full width of the
     Gaussian at half of its maximum. sigma: its standard deviation. The widths are in the unit of the
-    points. The columns of values, such as the frames of a series, are smoothed each alone.
-    held: where it is true at the points, the values stay. With BoundaryValues they also stay along the
-    boundary. source: added per unit of time.
+    points. Each column of values, such as a frame of a series, is smoothed by itself. held: true at
+    points where the values stay. With BoundaryValues they also stay along the boundary. source: added per
+    unit of time.
     """
     amounts = {"DiffusionTime": time, "FWHM": fwhm, "Sigma": sigma}
     given = [number for number, amount in enumerate(amounts.values()) if amount is not None]
@@ -184,11 +187,11 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
 
 
 def gaussian_field(points, cells, distance, number=1, **properties):
-    """Samples random fields whose values at near points are alike, with mean 0 (N, number).
+    """Samples random fields with mean 0 whose values at nearby points are alike (N, number).
 
-    distance: the Range in ParameterUnits; farther values hardly depend on each other. Smoothness chooses
-    between rough and smooth samples. Another Seed gives other samples. With Statistics the result has two
-    columns: mean and standard deviation of the samples.
+    distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. Smoothness
+    chooses between rough and smooth samples. Another Seed gives other samples. With Statistics the result
+    has two columns: mean and standard deviation of the samples.
     """
     return _solve("GaussianField", points, cells, {},
                   {"Range": distance, "NumberOfSamples": number, **properties})["Samples"]
@@ -220,7 +223,7 @@ def stitch(points, cells, colors, labels, **properties):
 def curvatures(points, cells, **properties):
     """Computes minimum and maximum curvature at the points, in one over length, and their directions.
 
-    Returns arrays of the shapes (N), (N), (N, 3), (N, 3). Convex is positive.
+    Returns arrays of the shapes (N), (N), (N, 3), (N, 3). The curvature of a convex surface is positive.
     """
     results = _solve("PrincipalCurvatures", points, cells, {}, properties)
     return tuple(results[name] for name in (

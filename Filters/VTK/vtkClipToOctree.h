@@ -9,9 +9,9 @@
  * Input: vtkPolyData with polygons of any size, concave ones too, or triangle strips. Vertices and
  * lines are left out.
  *
- * Output port 0 (vtkPolyData) is the clipped mesh, made of triangles. Its points are the input's
- * points first, in the same order and precision (double when they are integers), then the cut
- * points. Points of a seam that coincide but for rounding are at one place.
+ * Output port 0 (vtkPolyData) is the clipped mesh, made of triangles. The input's points come
+ * first, in the same order and precision (double when they are integers). The cut points follow.
+ * Points of a seam that coincide except for rounding are at one place.
  * - point data: the input's arrays. Real numbers are interpolated to double. Colors (unsigned char,
  *   3 or 4 components) are interpolated and rounded. Other integers and text come from the nearest
  *   corner. Global and pedigree ids are left out, because a cut point has none.
@@ -37,11 +37,11 @@
  * The filter uses the shared properties Depth, WeldCoincidentPoints, NumberOfThreads and
  * QuadratureDegree. QuadratureDegree changes only output port 1.
  *
- * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
- * their polygons came from. In rank order, the ranks together output the triangles that one rank
- * would output. Each rank has only the points that its triangles use: the input's points first, in
- * another order. `OctreeCells` lists the cells of all ranks, on each rank. Only arrays that the
- * pieces of all ranks have are output.
+ * On several MPI ranks, each rank outputs the triangles in its own cells of the octree. Their
+ * polygons may come from other ranks. In rank order, the ranks together output the triangles that
+ * one rank would output. Each rank has only the points that its triangles use: the input's points
+ * first, in another order. `OctreeCells` lists the cells of all ranks, on each rank. Only arrays
+ * that the pieces of all ranks have are output.
  */
 #ifndef vtkClipToOctree_h
 #define vtkClipToOctree_h

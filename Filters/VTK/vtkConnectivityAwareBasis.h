@@ -25,18 +25,18 @@
  * points are the functions. Split functions are coincident points.
  * - point data: `BasisId` (vtkIdType, 1) is the id of the function.
  * - point data: `SupportArea` (double, 1) is the area of the patches that the function touches.
- * - point data: `Component` (vtkIdType, 1) is the connected component that the function lives on.
+ * - point data: `Component` (vtkIdType, 1) is the connected component on which the function lives.
  * - cell data: `PatchId` (vtkIdType, 1), `Level` (int, 1).
  *
  * The filter uses the shared properties Depth, ConnectivityAware, WeldCoincidentPoints and
  * NumberOfThreads. Depth has no effect on a clipped mesh. WeldCoincidentPoints also applies to a
- * clipped mesh, whatever value the clip was made with.
+ * clipped mesh, and replaces the value with which the clip was made.
  *
- * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
- * their polygons came from. In rank order, the ranks together output the triangles that one rank
- * would output. Every rank has the whole tables of the basis, coarse levels included. The first
- * rank shows the functions of coarse levels. Only arrays that the pieces of all ranks have are
- * output. Triangles that were clipped before, by all ranks or by one, stay on their ranks.
+ * On several MPI ranks, each rank outputs the triangles in its own cells of the octree. Their
+ * polygons may come from other ranks. In rank order, the ranks together output the triangles that
+ * one rank would output. Every rank has the whole tables of the basis, coarse levels included. The
+ * first rank shows the functions of coarse levels. Only arrays that the pieces of all ranks have
+ * are output. Triangles that were clipped before, by all ranks or by one, stay on their ranks.
  */
 #ifndef vtkConnectivityAwareBasis_h
 #define vtkConnectivityAwareBasis_h

@@ -39,7 +39,7 @@ public:
 
   ///@{
   /**
-   * How many points to find. 1..100000, default 10.
+   * The number of points to find. 1..100000, default 10.
    */
   vtkSetClampMacro(NumberOfPoints, int, 1, 100000);
   vtkGetMacro(NumberOfPoints, int);

@@ -1,15 +1,18 @@
 /**
  * @class   vtkGaussianField
- * @brief   random fields on a surface whose values are alike at near points
+ * @brief   random fields on a surface whose values are alike at nearby points
  *
- * Samples Gaussian random fields with mean 0 and Matérn covariance. They solve
- * (k^2 - Δ)^((n + 1) / 2) u = W on the surface, with white noise W, the Smoothness n and
- * k = sqrt(8 n) / Range. On a plane, values at the distance Range have a correlation of about 0.14.
- * Distances are along the surface. At a boundary the normal derivative is 0. The variance there is
- * up to twice as large on edges and four times as large in corners, within about one Range.
+ * Samples Gaussian random fields with mean 0 and Matérn covariance. Each field u solves
  *
- * Samples depend on Seed and on the functions. They do not depend on the number of threads. Another
- * NumberOfSamples gives the same samples up to rounding, and more or fewer of them.
+ *     (k² - Δ)^((n + 1) / 2) u = W
+ *
+ * on the surface. W is white noise, n is the Smoothness, and k is sqrt(8 n) / Range. On a plane,
+ * values at the distance Range have a correlation of about 0.14. Distances are along the surface.
+ * At a boundary the normal derivative is 0. Within about one Range of the boundary, the variance is
+ * therefore larger: twice as large on edges, and four times as large in corners.
+ *
+ * Samples depend on Seed and on the functions. They do not depend on the number of threads. A
+ * larger NumberOfSamples adds samples, and the first ones stay the same up to rounding.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -19,7 +22,7 @@
  * - point data, double: `Sample000`, `Sample001` ..., one array for each sample.
  * - point data, double, with Statistics instead: `SampleMean` and `SampleStandardDeviation`.
  * - field data, of the worst solve: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`
- * and `ConvergenceFactor`. Values are NaN at points that no polygon uses.
+ *   and `ConvergenceFactor`. Values are NaN at points that no polygon uses.
  *
  * Tolerance is 1e-6 and NormalStabilization 1e-2 by default. The filter uses all shared properties.
  * Range is in the unit of length of ParameterUnits. On several MPI ranks the surface is gathered.
@@ -72,7 +75,7 @@ public:
 
   ///@{
   /**
-   * How many samples are computed. 1..100000, default 1.
+   * The number of samples to compute. 1..100000, default 1.
    */
   vtkSetClampMacro(NumberOfSamples, int, 1, 100000);
   vtkGetMacro(NumberOfSamples, int);
@@ -80,8 +83,8 @@ public:
 
   ///@{
   /**
-   * When on, the output has mean and standard deviation of the samples at every point instead of
-   * the samples. It needs two samples or more. Default off.
+   * When on, the output has the mean and the standard deviation of the samples at every point,
+   * instead of the samples. This needs at least two samples. Default off.
    */
   vtkSetMacro(Statistics, bool);
   vtkGetMacro(Statistics, bool);

@@ -15,8 +15,8 @@
  * - the points in the selection of port 3.
  *
  * If none of the four is given, the source is the first point of the surface: the one with the
- * smallest id that a polygon uses. A triangle whose corners are all sources is at distance 0 as a
- * whole. A warning tells when more than half of the points have no distance.
+ * smallest id that a polygon uses. If all corners of a triangle are sources, the distance is 0 on
+ * the whole triangle. A warning appears if more than half of the points have no distance.
  *
  * With Signed on, distances are from a curve instead, and they are negative inside. The curve is
  * the border of the points or cells whose LabelArray is InsideLabel. If no LabelArray is chosen, it
@@ -41,8 +41,8 @@
  *   inside a curve. Its absolute value is never below the straight distance through space from the
  *   sources or the curve. It is NaN on a component without a source and at points that no polygon
  *   uses.
- * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
- *   distance is from. It is -1 where no source can be reached.
+ * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the nearest source. It
+ *   is -1 where no source can be reached.
  * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,
  *   `Residual`, `ConvergenceFactor`. `Converged` is also 0 if the heat has not settled or does not
  *   reach the whole surface.

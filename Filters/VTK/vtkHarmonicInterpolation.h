@@ -25,24 +25,23 @@
  *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
  *   not chosen either. The MaskArray and the selection are not used then.
  *
- * Several values at one point are met in the mean. The filter warns if they differ.
+ * If one point has several values, the filter takes their mean, and warns if they differ.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Interpolated`, with the components of the values. It is of bytes if they are
  *   colors (three or four bytes), float if they are float, else double. It is NaN on connected
- *   components without any value. The filter warns once of such components.
+ *   components without any value. The filter warns once about such components.
  * - field data: `Misfit` (double, 1), the largest difference from a given value.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
  * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and
  *   `TrustedEstimate` of vtkPoissonAlgorithm. They are NaN for biharmonic functions of more than
  *   256 points.
  *
- * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson. Harmonic
- * functions meet all values: where different values are closer to each other than the functions can
- * follow, the filter corrects the points within a cell around them on the mesh. Biharmonic
- * functions meet values to 1e-7 of their range wherever they can follow them. NormalStabilization
- * is 1e-2 and MaximumIterations 200 by default. The filter uses all shared properties but
- * ParameterUnits.
+ * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson. Harmonic functions
+ * meet all values. Different values may be too close together for the functions. In this case the
+ * filter corrects the points within a cell around them on the mesh. Biharmonic functions meet
+ * values to 1e-7 of their range wherever they can follow them. NormalStabilization is 1e-2 and
+ * MaximumIterations 200 by default. The filter uses all shared properties but ParameterUnits.
  */
 #ifndef vtkHarmonicInterpolation_h
 #define vtkHarmonicInterpolation_h
@@ -73,7 +72,8 @@ public:
   /**
    * Harmonic (default) minimizes the integral of the squared gradient. Biharmonic minimizes the
    * integral of the squared Laplacian. It costs a solve and a vector for each point, up to 256
-   * points. More points cost some fifty to a hundred solves, however many they are.
+   * points. More points cost about fifty to a hundred solves in all, no matter how many points
+   * there are.
    */
   vtkSetClampMacro(Smoothness, int, Harmonic, Biharmonic);
   vtkGetMacro(Smoothness, int);
@@ -82,8 +82,8 @@ public:
   ///@{
   /**
    * A table of known values with one component: the id of a point in port 0, a whole number, and
-   * its value. The filter uses the table if there is no array to take and no port 2. It warns of
-   * points that are not on the surface, and leaves them out. Empty by default.
+   * its value. The filter uses the table if there is neither an array to take nor an input on port
+   * 2. It leaves out points that are not on the surface, and warns about them. Empty by default.
    */
   void AddKnownValue(double point, double value);
   void ClearKnownValues();

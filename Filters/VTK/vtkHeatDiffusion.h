@@ -1,14 +1,14 @@
 /**
  * @class   vtkHeatDiffusion
- * @brief   an array that spreads along a surface as heat does, in time steps
+ * @brief   spread an array along a surface as heat spreads, in time steps
  *
- * Solves ∂u/∂t = Δu + s on the surface, from the array u at time 0 to the DiffusionTime, with the
- * source s. Instead of the time you can give the width of the Gaussian that smooths: FWHM or Sigma.
- * The time is divided into NumberOfSteps equal steps, and each is a time step of the output. Steps
- * are of second order in their length and stable for any length. The first step takes three solves
- * and damps details of any size; each later one takes two. One step leaves at most 0.006 of a
- * detail with the wrong sign, and the heat of a point stays positive. Only jumps within a cell make
- * the functions go below and above the given values.
+ * Solves ∂u/∂t = Δu + s on the surface, with the source s, from the array u at time 0 to the
+ * DiffusionTime. Instead of the time you can give the width of the Gaussian that smooths: FWHM or
+ * Sigma. The time is divided into NumberOfSteps equal steps, and each is a time step of the output.
+ * Steps are of second order in their length and stable for any length. The first step takes three
+ * solves and damps details of any size; each later one takes two. One step leaves at most 0.006 of
+ * a detail with the wrong sign, and heat from a single point stays positive. The result overshoots
+ * the given values only at jumps within a cell.
  *
  * No heat flows over boundaries. The integral over every connected component changes only by the
  * source. Held values, however, let heat enter and leave.
@@ -29,22 +29,22 @@
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Diffused` (C components). It is of bytes if the array holds colors (three or four
  *   bytes), float if the array is float, else double. Without an array, the points move to their
- * spread coordinates. The output then has `Displacement` and `NormalDisplacement`, and normals
- * follow. The clip, basis and modes belong to the old shape and are left out.
+ *   spread coordinates. The output then has `Displacement` and `NormalDisplacement`, and normals
+ *   follow. The clip, basis and modes belong to the old shape and are left out.
  * - field data: `Step` (int, 1).
  * - field data: `DiffusionTime` (double, 1; squared world length).
  * - field data, of all solves of the shown step: `Converged`, `Iterations`, `DoublePrecisionSince`,
  *   `Residual`, `ConvergenceFactor` and the estimated errors of vtkPoissonAlgorithm.
  * - field data, if values are held: `Misfit` (double, 1), the largest difference from a held value.
  *
- * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last. A
- * single step, or TimeFrom, gives the times of the input instead.
- * Steps are computed once and kept. If you ask for more steps of the same length, DiffusionTime /
+ * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last
+ * step. With a single step, or with TimeFrom, the output has the times of the input instead. Steps
+ * are computed once and kept. If you ask for more steps of the same length, DiffusionTime /
  * NumberOfSteps, the filter computes only the new ones.
  *
  * Accuracy ends the solves of a single step. The errors of several steps add up. Several steps, and
- * steps with held values, are therefore solved to a Tolerance, which is 1e-6 if the property is 0,
- * and have no estimated errors. NormalStabilization is 1e-2 by default. The filter uses all shared
+ * steps with held values, are therefore solved to a Tolerance, which is 1e-6 if the property is 0.
+ * They have no estimated errors. NormalStabilization is 1e-2 by default. The filter uses all shared
  * properties. DiffusionTime is in the squared unit of length of ParameterUnits. FWHM and Sigma are
  * in the unit of the points, and the source is per squared world length.
  *

@@ -38,8 +38,8 @@
  *   estimate comes from the values of the same mode in the spaces of half and of a quarter of the
  *   resolution. It is 1 if the first of them has no such mode. With HatFunctions the estimate also
  *   includes the difference to the eigenvalue of the grid, if the eigenvalue of the hat functions
- * is larger. Both eigenvalues are upper bounds, so the estimate is the error of the worse of the
- * two.
+ *   is larger. Both eigenvalues are upper bounds, so the estimate is the error of the worse of the
+ *   two.
  * - `TrustedEstimate` (int): 1 if the three values approach each other as on a resolved surface. If
  *   it is 0, the error may be far larger.
  *

@@ -89,8 +89,8 @@ public:
 
   ///@{
   /**
-   * How many steps to compute. 1..100000, default 10. A larger number continues the flow. A smaller
-   * number computes nothing.
+   * The number of steps to compute. 1..100000, default 10. A larger number continues the flow. A
+   * smaller number computes nothing.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 100000);
   vtkGetMacro(NumberOfSteps, int);

@@ -2,9 +2,9 @@
  * @class   vtkPoissonAlgorithm
  * @brief   base class of filters that solve Poisson equations to the accuracy of their space
  *
- * The function space has an error whatever the iteration does. The iteration ends when its own
- * estimated error is at most Accuracy times the error of the space. With a Tolerance above 0, it
- * ends by the energy residual instead.
+ * The error of the function space stays, no matter how long the solver iterates. The iteration
+ * therefore ends when its own estimated error is at most Accuracy times the error of the space.
+ * With a Tolerance above 0, it ends by the energy residual instead.
  *
  * Such filters add the following arrays to the field data of output port 0, besides `Converged`,
  * `Iterations`, `DoublePrecisionSince`, `Residual` and `ConvergenceFactor`.
@@ -14,11 +14,11 @@
  *   solution.
  * - `AlgebraicError` (double, 1): the remaining error of the iteration, relative like
  *   `DiscretizationError`.
- * - `TrustedEstimate` (int, 1): 0 if levels do not differ as they do on a resolved surface. In this
- *   case `DiscretizationError` may be too small.
+ * - `TrustedEstimate` (int, 1): 0 if the levels do not differ from each other as on a resolved
+ *   surface. In this case `DiscretizationError` may be too small.
  *
- * Several components or solves give the worst value. An unknown error, for example without coarser
- * levels, is NaN.
+ * With several components or solves, each value is the worst one. An unknown error, for example
+ * without coarser levels, is NaN.
  */
 #ifndef vtkPoissonAlgorithm_h
 #define vtkPoissonAlgorithm_h

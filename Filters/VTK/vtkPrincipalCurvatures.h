@@ -1,6 +1,6 @@
 /**
  * @class   vtkPrincipalCurvatures
- * @brief   how a surface bends at its points: two curvatures and their directions
+ * @brief   principal curvatures and directions at the points of a surface
  *
  * Fits the second fundamental form of every triangle to the differences between the normals of its
  * corners. Every point takes the mean over its triangles (Rusinkiewicz, Estimating Curvatures and
@@ -18,7 +18,8 @@
  * - `MinimumCurvature`, `MaximumCurvature` (1 component each): the smaller and the larger
  *   curvature, with their signs.
  * - `MinimumCurvatureDirection`, `MaximumCurvatureDirection` (3): unit vectors perpendicular to the
- *   normal, with an arbitrary sign. Where the curvatures are equal, they are any two such vectors.
+ *   normal, with an arbitrary sign. If the curvatures are equal, the directions are any two such
+ *   vectors.
  * - `MeanCurvature` (1): half of the sum of the curvatures.
  * - `GaussianCurvature` (1; per squared unit of length): their product.
  * - `ShapeIndex` (1; no unit): -1 cup, -0.5 rut, 0 saddle or plane, 0.5 ridge, 1 cap.
@@ -26,10 +27,10 @@
  *   1). It is 2/π atan(H / h), so that a few extremes do not hide the rest. h is the median of |H|,
  *   at least 1/√area.
  *
- * Triangles that face against the rest of their component count as turned round. A closed component
- * whose triangles do not face alike faces outward. The field array `TurnedTriangles` (int, 1) is
- * the number of turned triangles. The filter warns about one-sided components, such as a Möbius
- * strip.
+ * If some triangles of a component face the other way than the rest, they count as turned around. A
+ * closed component with such triangles counts as facing outward. The field array `TurnedTriangles`
+ * (int, 1) is the number of turned triangles. The filter warns about one-sided components, such as
+ * a Möbius strip.
  *
  * With a SmoothingScale, the field data have `Converged`, `Iterations`, `Residual`,
  * `ConvergenceFactor` and `DoublePrecisionSince` of the smoothing, as in vtkScreenedPoisson.
@@ -53,8 +54,9 @@ public:
   ///@{
   /**
    * The standard deviation of the Gaussian that smooths the normals along the surface, in the unit
-   * of length of ParameterUnits. Smaller details do not count. 0 (default) smooths nothing. One to
-   * two edges of the mesh suit scans. The filter refuses a negative value when it runs.
+   * of length of ParameterUnits. Smaller details do not count. 0 (default) smooths nothing. For
+   * scans, one to two edge lengths of the mesh are suitable. The filter refuses a negative value
+   * when it runs.
    */
   vtkSetMacro(SmoothingScale, double);
   vtkGetMacro(SmoothingScale, double);

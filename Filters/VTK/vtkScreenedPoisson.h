@@ -22,8 +22,8 @@
  * Arrays are point or cell data of input port 0, of any numeric type. SetInputArrayToProcess
  * chooses them:
  * - index 0, `ValueArray`: f, with any number of components C. Without it f is the coordinates.
- * - index 1, `GradientArray` (optional): g in world units, 3 C components. The three components for
- *   the first component of f come first.
+ * - index 1, `GradientArray` (optional): g in world units, 3 C components. The gradient of the
+ *   first component of f comes first.
  * - index 2, `GradientScaleArray` (optional): one component, which multiplies GradientScale.
  * - index 3, `ValueWeightArray` (optional): one component, 0 or more, which multiplies
  *   ScreeningWeight. A triangle takes the mean of a point array. Values of weight 0 do not count.
@@ -34,10 +34,10 @@
  *   case.
  * - index 5, `MetricArray` (optional): a symmetric tensor of six components (XX, YY, ZZ, XY, YZ,
  *   XZ) or nine. It is the metric of all integrals and gradients and of the area in ParameterUnits,
- *   as if the surface had been moved to a shape with this metric. Use J^T J for a map with the
- *   Jacobian J. Only the tensor's part in the plane of each triangle counts, and that part must be
+ *   as if the surface had been moved to a shape with this metric. For a map with the Jacobian J,
+ *   use J^T J. Only the tensor's part in the plane of each triangle counts, and that part must be
  *   positive definite. A triangle takes the mean of a point array. With a metric, g is the
- *   derivative of a function on the input, as vtkSurfaceGradient gives it.
+ *   derivative of a function on the input, as vtkSurfaceGradient computes it.
  * - index 6, `BoundaryFluxArray` (optional): point data, C components, in units of f over length.
  *   It is the outward slope of u minus the outward slope of s g, at points of the boundary. It
  *   cannot be combined with a MetricArray.
@@ -47,15 +47,15 @@
  * such components.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
- * - point data: `Solution` (C components, named as those of f). It is of bytes if f
- *   holds colors (three or four bytes), float if f, or the coordinates in its place, are float,
- * else double.
+ * - point data: `Solution` (C components with the names of the components of f). It is of bytes if
+ *   f holds colors (three or four bytes). It is float if f, or the coordinates in its place, are
+ *   float. Otherwise it is double.
  * - without a ValueArray: the points move to the solution and have the point arrays `Displacement`
  *   and `NormalDisplacement`. Normals follow. The clip, basis and modes of the old shape are left
  *   out.
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `UsedDepth` (int, 1).
  * - field data: `Residual` (double, 1), the norm of the residual vector relative to the right-hand
- *   side. Tolerance is on another measure.
+ *   side. Tolerance applies to the energy residual instead.
  * - field data: `ConvergenceFactor` (double, 1), the mean reduction of the energy residual per
  *   iteration.
  * - field data: `DoublePrecisionSince` (int, 1), the iteration after which the smoother used double
@@ -117,7 +117,8 @@ public:
 
   ///@{
   /**
-   * Factor on the gradients: 0 smooths, 1 (default) keeps them, more than 1 sharpens.
+   * The factor on the gradients. 0 smooths, 1 (default) keeps the gradients, and more than 1
+   * sharpens.
    */
   vtkSetMacro(GradientScale, double);
   vtkGetMacro(GradientScale, double);
@@ -140,14 +141,15 @@ public:
    * belong to the surface seen first, and integrals are in the metric of the current surface. The
    * filter starts again if cells have changed or a triangle has lost its area.
    *
-   * The functions move with the surface. They stay as good as on the surface seen first where the
-   * motion bends it. They become poorer where the motion stretches one direction more than another.
-   * Parts that come close to each other later do not interact.
+   * The functions move with the surface. They stay as good as on the surface seen first if the
+   * motion only bends the surface. They become poorer if the motion stretches one direction more
+   * than another. Parts that come close to each other later do not interact.
    *
    * Results therefore depend, within the error of the space, on the time step that was computed
    * first. After a change of Depth or a similar property, the next step counts as the first. The
    * field array `ReferenceTime` names this time step if the input has times. The field array
-   * `LargestStretchRatio` measures how far the map from there is from keeping angles; 1 keeps them.
+   * `LargestStretchRatio` measures how much the motion since then changes angles; 1 means not at
+   * all.
    *
    * Needs ReleaseDataFlagOff, the default, and excludes MetricArray and BoundaryFluxArray. It has
    * no effect with a WantedError. Default off.
@@ -182,8 +184,9 @@ public:
 
   ///@{
   /**
-   * When on, the solution has the values f along the boundary of the surface, the edges with one
-   * triangle, except at unknown values. f must be point data in this case. Default off.
+   * When on, the solution has the values f along the boundary, except at unknown values. The
+   * boundary consists of the edges with one triangle. f must be point data in this case. Default
+   * off.
    */
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);

@@ -1,6 +1,6 @@
 /**
  * @class   vtkSpectralSignatures
- * @brief   what the eigenfunctions of a surface tell about its points and its shape
+ * @brief   signatures, distances and filters from the eigenfunctions of a surface
  *
  * Computes signatures of every point, distances from chosen points, frequency filters, and a
  * fingerprint of the shape. All are sums over the modes of vtkLaplaceSpectrum. λ is the eigenvalue
@@ -14,8 +14,8 @@
  * - Diffusion distance: √(area Σ exp(-2 λ t) (φ(x) - φ(y))²) with t = DiffusionTime, from every
  *   point to the nearest source.
  * - Low, high and band pass: the part of a point array, or of the shape itself, that consists of
- *   some of the modes. Function and modes are linear on every triangle, and their products are
- *   integrated exactly.
+ *   some of the modes. The function and the modes are linear on every triangle, and their products
+ *   are integrated exactly.
  * - Shape-DNA: area λ, the same for a scaled shape.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips.
@@ -29,8 +29,8 @@
  *
  * Otherwise the filter computes the modes as vtkLaplaceSpectrum does. It completes the last group
  * of equal eigenvalues, because signatures and distances need whole groups. It recognizes modes of
- * another mesh: the integral of a squared mode is not 1, or its Rayleigh quotient is not the
- * eigenvalue. The filter then warns, leaves the modes out and computes new ones.
+ * another mesh, because the integral of a squared mode is not 1 or its Rayleigh quotient is not the
+ * eigenvalue. The filter then warns, leaves these modes out and computes new modes.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, in the precision of the points (double when they are integers):
@@ -41,7 +41,7 @@
  * - point data, with sources: `DiffusionDistance` (1 component, no unit).
  * - point data, with a FilterType: `Filtered`, with the components of the array. It is of bytes if
  *   the array holds colors, float if it is float, else double. If the coordinates are filtered, the
- * points move to their filtered places. The output then has `Displacement` and
+ *   points move to their filtered places. The output then has `Displacement` and
  *   `NormalDisplacement`, and normals follow. The clip, basis and modes belong to the old shape and
  *   are left out.
  * - field data, one tuple per scale: `HeatTimes` (double, world length squared) and `WaveEnergies`
@@ -121,8 +121,8 @@ public:
   };
   ///@{
   /**
-   * What to do with the ValueArray.
-   * - NoFilter (default): nothing.
+   * The modes of the ValueArray that are kept.
+   * - NoFilter (default): nothing is filtered.
    * - LowPass: keep modes 0..LastMode.
    * - HighPass: remove modes 0..FirstMode - 1 and keep the rest, including the part that no mode
    *   describes.

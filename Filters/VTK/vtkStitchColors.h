@@ -1,6 +1,6 @@
 /**
  * @class   vtkStitchColors
- * @brief   make one coloring of the colors of several scans
+ * @brief   merge the colors of several scans into one coloring
  *
  * Scans of one surface differ in exposure, so their colors jump where they meet. The result has the
  * gradients of the colors inside the scans, and no jumps. The filter solves one Poisson equation
@@ -13,10 +13,10 @@
  * Arrays are point or cell data of input port 0. SetInputArrayToProcess chooses them:
  * - index 0, `ColorArray`: 1 to 4 components of any numeric type. If none is chosen, the filter
  *   takes the only array of bytes with three or four components.
- * - index 1, `LabelArray`: one component, integers, the number of the scan. Points with one label
- *   may be anywhere. If none is chosen, the filter takes the only other array of an integer type
- *   with 2 to 1,000 values that each appear at least twice on average. It ignores ids, ghosts and
- *   the cells of a clip.
+ * - index 1, `LabelArray`: one component, integers, the number of the scan. Points with the same
+ *   label may be anywhere. If none is chosen, the filter takes the only other array of an integer
+ *   type with 2 to 1,000 values that each appear at least twice on average. It ignores ids, ghosts
+ *   and the cells of a clip.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point or cell data, as ColorArray: `StitchedColors`, with the same type and components.

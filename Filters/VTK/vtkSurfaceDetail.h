@@ -1,6 +1,6 @@
 /**
  * @class   vtkSurfaceDetail
- * @brief   sharpen or smooth a surface, or an array on it, also by its curvature
+ * @brief   sharpen or smooth a surface, or an array on it, everywhere or by its curvature
  *
  * Finds the shape (or array) u that minimizes, over the surface, the integral of
  *

@@ -1,6 +1,6 @@
 /**
  * @class   vtkSurfaceFEMAlgorithm
- * @brief   what all surface finite element filters share
+ * @brief   base class of all surface finite element filters
  *
  * Holds the properties that have the same name and meaning in every filter. It also holds the
  * stages, which run again only if something they depend on has changed. The surface lies in a cube
@@ -8,11 +8,11 @@
  * restricted to the surface.
  *
  * Every filter fails by the same rule:
- * - An input without points gives empty outputs, silently.
+ * - An input without points gives empty outputs and no message.
  * - An unusable input gives one error message and empty outputs. RequestData returns 0, and the
  *   error code is vtkErrorCode::UnknownError. The pipeline prints no message of its own.
- * - If the user has not chosen something that the filter needs, it warns, and its output is the
- *   input. On several MPI ranks and with BlocksAsOne this is an error.
+ * - If the user has not chosen something that the filter needs, the filter warns, and its output is
+ *   the input. On several MPI ranks, and with BlocksAsOne, a missing choice is an error.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
  * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not
@@ -24,29 +24,28 @@
  * this surface and have the arrays `vtkOriginalPointIds` and `vtkOriginalCellIds`. Each leaf of a
  * composite input is a surface by itself. With BlocksAsOne, all leaves are one surface. A leaf that
  * lacks an array of another leaf is passed on unchanged, with a warning. Vertices and lines take no
- * part, nor do cells that vtkGhostType marks as hidden or as duplicates. The solvers pass them on,
- * and the clip leaves them out. Computation is in double precision. Results do not depend on
- * NumberOfThreads.
+ * part. Neither do cells that vtkGhostType marks as hidden or as duplicates. The solvers pass these
+ * cells on, and the clip leaves them out. Computation is in double precision. Results do not depend
+ * on NumberOfThreads.
  *
  * Index 9 of SetInputArrayToProcess chooses the DomainArray, a point or cell array with one
  * component. The filter computes where it is neither 0 nor NaN, as if the rest of the surface were
  * cut away. A cell is inside if its value is, or if all values at its points are. The output of a
  * solver has all points and cells of the input.
  *
- * Points that no polygon inside the domain uses have NaN in all results, and the color of the input
- * in results that are colors. Where a filter moves points, they stay in place, and the
- * measures of the motion are those of a point at rest.
+ * Points that no polygon inside the domain uses have NaN in all results, except that colors stay as
+ * in the input. If a filter moves points, these points stay in place and count as points at rest.
  *
- * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
- * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
- * and the patch smoother, excludes BlocksAsOne and a DomainArray, and works in most solvers; the
- * page of each filter gives details. Otherwise, rank 0 gathers the surface, has to hold all of it,
- * and computes with its threads. The other ranks sleep. Ghost cells count once. Points on borders
+ * On several MPI ranks, all ranks compute together if they can. No rank then gathers the surface,
+ * which may be larger than one machine, and the field array `Distributed` is 1. This needs welded
+ * points and the patch smoother, and excludes BlocksAsOne and a DomainArray. It works in most
+ * solvers; the page of each filter gives details. Otherwise, rank 0 gathers the whole surface and
+ * computes with its threads, while the other ranks sleep. Ghost cells count once. Points on borders
  * are joined by global point ids, or else by their coordinates with WeldCoincidentPoints. Rank 0
- * also gathers a surface with hanging nodes. Port 0 is each rank's own input plus arrays, borders
- * and ghosts included. Outputs with cells of their own, and tables, are on rank 0. Ids of sources,
- * and ids in messages, count through the gathered surface. The same ranks have to run the filter
- * together. If one fails, all fail with one message.
+ * also gathers a surface with hanging nodes. Port 0 of each rank is its own input with additional
+ * arrays, including borders and ghosts. Outputs with cells of their own, and tables, are on rank 0.
+ * Ids of sources, and ids in messages, are ids in the gathered surface. The same ranks have to run
+ * the filter together. If one fails, all fail with one message.
  *
  * A solver filter looks for its function space in this order:
  * - on input port 0, if that is the output of vtkConnectivityAwareBasis;
@@ -54,9 +53,10 @@
  *   vtkConnectivityAwareBasis for the mesh of port 0.
  * - Otherwise the filter builds the space itself.
  *
- * Time: outputs have the time steps of the input. A filter asks its input for the time that its
- * outputs are asked for. Some filters have time steps of their own, such as modes. They ask their
- * inputs for one fixed time: the last requested time, or else the time of the inputs.
+ * Time: outputs have the time steps of the input. A filter requests from its input the time that is
+ * requested from its outputs. Some filters have time steps of their own, such as modes. They
+ * request one fixed time from their inputs: the last requested time, or else the time of the
+ * inputs.
  *
  * Memory: a filter keeps the results of its steps, so that a change repeats only the steps that
  * depend on it. These results are the clipped mesh, its functions, element and level matrices, the
@@ -135,7 +135,7 @@ public:
   };
   ///@{
   /**
-   * The functions that solutions are made of. Only solvers use this property.
+   * The functions that make up the solution. Only solvers use this property.
    *
    * Grid (default) takes the functions of the grid. Depth determines how fine they are.
    *
@@ -149,8 +149,8 @@ public:
    *
    * SmoothGrid takes quadratic B-splines of the grid, whose gradients are continuous. Smooth
    * solutions reach the same error at a Depth one to two steps smaller. NormalStabilization is at
-   * least 1e-3 and QuadratureDegree at least 6. Several MPI ranks gather the surface on rank 0.
-   * Distances, held values and stitched colors refuse these functions.
+   * least 1e-3 and QuadratureDegree at least 6. On several MPI ranks, the surface is gathered on
+   * rank 0. Distances, held values and stitched colors refuse these functions.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, SmoothGrid);
   vtkGetMacro(FunctionSpace, int);
@@ -205,11 +205,11 @@ public:
 
   ///@{
   /**
-   * When on, the leaves of a composite input are one surface. It is joined at points with the same
-   * coordinates if WeldCoincidentPoints is on, or with the same global ids. The filter computes on
-   * it once, and every leaf gets its points, cells and results back. Points of several leaves have
-   * one result. Field arrays describe the one surface. Outputs with cells of their own, and tables,
-   * are in the first leaf.
+   * When on, the leaves of a composite input are one surface. Leaves are joined at points with the
+   * same global ids, or with the same coordinates if WeldCoincidentPoints is on. The filter
+   * computes on it once, and every leaf gets its points, cells and results back. Points of several
+   * leaves have one result. Field arrays describe the one surface. Outputs with cells of their own,
+   * and tables, are in the first leaf.
    *
    * Ids of sources, and ids in messages, count through all leaves. Joined points count once. Only
    * arrays that all leaves have can be chosen. A leaf without a chosen array that others have is
@@ -225,9 +225,9 @@ public:
 
   ///@{
   /**
-   * Put before the names of all point and cell arrays of the results, so that the results of
-   * several filters stay side by side. Default: nothing. Only solvers use it. Without it, too, no
-   * array of the input is lost: one that has the name of a result is kept as `name_input`.
+   * The prefix of the names of all point and cell arrays of the results. It keeps the results of
+   * several filters apart. Default: empty. Only solvers use it. If an array of the input has the
+   * name of a result, it is kept as `name_input`.
    */
   vtkSetStdStringFromCharMacro(ResultPrefix);
   vtkGetCharFromStdStringMacro(ResultPrefix);
@@ -282,8 +282,8 @@ protected:
    */
   virtual std::vector<double> OwnTimeSteps();
 
-  /// The solver may leave this part of the error of the function space. 0 means it solves to the
-  /// Tolerance.
+  /// The remaining error of the solver may be this part of the error of the function space. With 0
+  /// the solver iterates to the Tolerance.
   virtual double WantedAccuracy() const { return 0.0; }
 
   /**
