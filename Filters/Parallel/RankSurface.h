@@ -15,8 +15,8 @@ class RankSurface
 public:
   /// Collective. Makes a RankSpace, with hats above it if wanted. With hats, sheets that touch only
   /// in a point are joined on the grid if the hats join them. [HatLevel::joinedGrid]
-  /// Throws InvalidInput for hats when no triangle has an area, or coincident points are not
-  /// welded. Nothing else tells that points of two ranks at the same place are one.
+  /// Throws InvalidInput for hats if no triangle has an area, or if coincident points are not
+  /// welded. Without welding, ranks cannot know which of their points are the same.
   RankSurface(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
     bool hasHats, const Progress& progress = {}, const TriangleList& copies = {});
 

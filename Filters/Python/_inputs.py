@@ -120,7 +120,7 @@ def colors_like(colors, given):
 def result_like(result, given, on_points):
     """Returns a solution in the type of the values: bytes for colors, float32, or float64.
 
-    Colors are clamped and rounded. Where there is no solution, they are the given ones, or black.
+    Colors are clamped and rounded. Points without a solution keep their given color, or become black.
     """
     if given.dtype == numpy.uint8 and given.ndim == 2 and given.shape[1] in (3, 4):
         unsolved = numpy.isnan(result)
@@ -152,7 +152,7 @@ def _rows(points, polygons, triangulate):
 
 
 def _in_space(points):
-    """Returns points with three coordinates. Those in the plane, as meshio has them, get z = 0."""
+    """Returns points with three coordinates. Points with two coordinates, as in meshio, get z = 0."""
     points = numpy.asarray(points, dtype=float)
     if points.ndim == 2 and points.shape[1] == 2:
         points = numpy.column_stack([points, numpy.zeros(len(points))])

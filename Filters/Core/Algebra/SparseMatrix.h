@@ -22,7 +22,7 @@ struct BasicSparseMatrix
   Id NonZeros() const { return static_cast<Id>(column.size()); }
   std::size_t Memory() const;
 
-  /// Value at (row, column), or 0 if there is no entry.
+  /// The value at (row, column), or 0 if there is no entry.
   Real Coefficient(Index row, Index col) const;
 
   std::vector<Real> Diagonal(int threads = 1) const;

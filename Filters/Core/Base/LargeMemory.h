@@ -39,9 +39,8 @@ void ReturnLargeMemory(std::size_t bytes) noexcept;
 /// Returns freed heap memory of any size to the system, if the heap supports it (glibc).
 void ReturnFreedMemory() noexcept;
 
-/// Asks the system for large pages in untouched memory of any origin, wherever the range spans
-/// whole large pages. This is only a hint, and only on Linux: the system may ignore it. Contents do
-/// not change.
+/// Asks the system for large pages in untouched memory, wherever the range spans whole large pages.
+/// This is only a hint, and only on Linux: the system may ignore it. Contents do not change.
 void PreferLargePages(void* begin, std::size_t bytes) noexcept;
 
 } // namespace gridfem

@@ -10,8 +10,9 @@
 namespace gridfem
 {
 
-/// A series of independent normal numbers. Uniform numbers are those of SplitMix64 [Steele, Lea and
-/// Flood 2014], which can begin anywhere. Pairs become normal by [Box and Muller 1958].
+/// A series of independent normal numbers. Uniform numbers come from SplitMix64 [Steele, Lea and
+/// Flood 2014], which can begin at any place of its sequence. Pairs become normal by [Box and
+/// Muller 1958].
 class NormalNumbers
 {
 public:

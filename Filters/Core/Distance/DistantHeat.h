@@ -1,8 +1,8 @@
 // Heat that has spread from its sources for a time t: (M + t L) u = b, u ~ exp(-distance /
-// sqrt(t)). It has the same relative accuracy everywhere, however little of it arrives.
+// sqrt(t)). It has the same relative accuracy everywhere, even where very little of it arrives.
 //
 // The error of a Krylov iteration is a fraction of the largest value, and heat falls by many powers
-// of ten. Relaxing one patch involves its neighbors alone, so its error is a fraction of the local
+// of ten. Relaxing one patch involves only its neighbors, so its error is a fraction of the local
 // heat. Patches are therefore relaxed in the order in which heat reaches them, some layers at a
 // time, until the first of these layers settle. Later layers change them little.
 #ifndef GridFEM_DistantHeat_h

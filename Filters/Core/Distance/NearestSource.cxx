@@ -220,7 +220,7 @@ private:
     {
       number |= share_(place, digit) > 0.5 ? Index(1) << digit : 0;
     }
-    // Where three regions meet, the digits may belong to another source.
+    // At places where three regions meet, the digits may belong to another source.
     const bool isKnown = number == number_[origin.first] || number == number_[origin.second];
     number_[place] = isKnown               ? number
                      : origin.share <= 0.5 ? number_[origin.first]

@@ -25,8 +25,8 @@ public:
   explicit PathSearch(const PathGraph& graph);
 
   /// Searches from the nearest of the sources until all targets are reached. Without targets, it
-  /// goes as far as the surface does. With one target it looks only where the way may lead (A*,
-  /// Hart, Nilsson and Raphael 1968). Throws Aborted.
+  /// covers the whole surface. With one target, it searches only toward the target (A*, Hart,
+  /// Nilsson and Raphael 1968). Throws Aborted.
   void From(const std::vector<Index>& sources, const std::vector<Index>& targets, const Job& job);
 
   /// The length of the way to a place that the last search has reached; otherwise infinite.

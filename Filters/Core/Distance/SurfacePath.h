@@ -22,12 +22,12 @@ struct SurfacePath
 Vec3 PositionOf(const TriangleMesh& mesh, const PathPoint& point);
 
 /// Pulls a way tight, like a string with fixed ends. The result is straight across every edge. At
-/// every point of the mesh that it goes through, all ways around measure at least π, so that no
-/// path nearby is shorter. It is never longer than the way.
+/// every point of the mesh on the path, the angle on each side is at least π, so no path nearby is
+/// shorter. The path is never longer than the way.
 ///
-/// The shortest path within a strip of triangles turns at corners of the strip. Where the way
-/// around the other side of such a corner measures less than π, the strip moves to this side, until
-/// there is no such corner. [Xin and Wang 2007] Each step shortens the path. Throws Aborted.
+/// The shortest path within a strip of triangles turns at corners of the strip. If the angle on the
+/// other side of a corner is less than π, the strip moves to this side. [Xin and Wang 2007] Each
+/// step shortens the path. Throws Aborted.
 /// @param way  at least one node. The path of a single node has two equal points, or none if no
 ///   triangle with three different places is there.
 SurfacePath PullTight(

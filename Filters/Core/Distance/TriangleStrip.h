@@ -19,9 +19,9 @@ struct TriangleStrip
   std::vector<Index> edges; // edges[k] is between triangles k and k + 1
 };
 
-/// Takes detours out: what lies between two visits of one triangle, and triangles before the last
-/// that has the first place, or after the first that has the last place. Triangles that the strip
-/// enters and leaves by one edge go, too. The shortest path within the strip never becomes longer,
+/// Removes detours. A detour lies between two visits of the same triangle, or enters and leaves a
+/// triangle by the same edge. At the ends, the strip then leaves its first place at once and stops
+/// where it first reaches its last place. The shortest path within the strip never becomes longer,
 /// because a triangle is flat.
 void RemoveDetours(const PathGraph& graph, TriangleStrip& strip);
 

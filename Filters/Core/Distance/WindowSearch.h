@@ -14,9 +14,9 @@ namespace gridfem
 
 /// Exact geodesics by windows. [Chen and Han 1990, Xin and Wang 2009] A window is a part of an edge
 /// that straight lines from a place reach through unfolded triangles. Windows move from triangle to
-/// triangle, the nearest first. Where a triangle's corner lies in a window, the window splits,
-/// unless another window has reached the corner on a shorter way. Places where the surface has a
-/// border or more than the full angle send windows of their own, because shortest paths bend there.
+/// triangle, the nearest first. A window that meets the corner of a triangle splits, unless another
+/// window has reached the corner on a shorter way. Shortest paths bend at the border of the surface
+/// and at places with more than the full angle. These places therefore send windows of their own.
 class WindowSearch
 {
 public:

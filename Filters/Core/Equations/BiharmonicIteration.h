@@ -9,16 +9,15 @@ namespace gridfem
 
 /// Minimizes ∫ |Δu|², that is uᵀ L M⁻¹ L u, among the functions with C u = g. L may be replaced by
 /// K = L + Cᵀ W C with a penalty W, because both differ only by a linear term where C u = g. The
-/// solution, with multipliers W ν, is
+/// solution with the multipliers W ν is
 ///   u = K⁻¹ (M K⁻¹ Cᵀ W ν + Cᵀ W g),
 ///   S ν = W (g - C K⁻¹ Cᵀ W g),
 ///   S = W C K⁻¹ M K⁻¹ Cᵀ W.
 /// The columns of K⁻¹ Cᵀ W are nearly harmonic functions that are 1 at one point and 0 at all
-/// others. S is the matrix of their inner products. Its condition depends on where the points lie,
-/// not on how many there are.
-/// Conjugate gradients solve with S. Their preconditioner is the row sums of S: the area around
-/// each point. A product with S takes two solves with K, by multigrid. Finally, a harmonic function
-/// removes the remaining misfit.
+/// others. S is the matrix of their inner products. Its condition depends on the positions of the
+/// points, not on their number. Conjugate gradients solve with S. Their preconditioner is the row
+/// sums of S: the area around each point. A product with S takes two solves with K, by multigrid.
+/// Finally, a harmonic function removes the remaining misfit.
 /// @param rows    RowsAtPoints of the points. Contradictory values are first replaced by the values
 ///   that a harmonic function reaches.
 /// @param values  rows = points, one column per component

@@ -29,9 +29,9 @@ HeldValues HoldPointsAndEdges(const FiniteElementSpace& space, const TriangleMes
 /// Both sets of held values, beginning with `first`.
 HeldValues Join(const HeldValues& first, const HeldValues& second);
 
-/// Returns each edge between two marked points once, ascending. If triangles share an edge, the one
-/// with the least coordinates opposite to it counts, so that all processes choose the same.
-/// Triangles without area have no edges.
+/// Returns each edge between two marked points once, ascending. If triangles share an edge, the
+/// triangle with the least coordinates opposite to the edge counts, so that all processes choose
+/// the same triangle. Triangles without area have no edges.
 std::vector<TriangleEdge> EdgesBetween(
   const TriangleMesh& mesh, const std::vector<char>& isMarked, bool weldCoincidentPoints);
 

@@ -11,8 +11,8 @@ namespace gridfem
 {
 
 /// Corrects a harmonic interpolation at the points of a mesh where the functions are too coarse for
-/// it. The corrected values lie between the least and the largest given value of their connected
-/// component, as those of a harmonic function do, and have the given values.
+/// it. Like a harmonic function, the corrected values have the given values, and lie between the
+/// least and the largest given value of their connected component.
 class LocalCorrection
 {
 public:
@@ -27,10 +27,10 @@ public:
   std::vector<Id> PointsBeyond(const MultiVector& atPoints, double share) const;
 
   /// A point needs a correction where its value leaves the range, or differs from its given value,
-  /// by more than 0.1 % of the range. The values within `reach` of it become harmonic on the mesh:
-  /// each is a mean of its neighbors, with the cotangent weights of the mesh, where a negative
-  /// weight counts as a small one. Everywhere else, a given value replaces the one at its point,
-  /// and a value beyond the range becomes the end of the range.
+  /// by more than 0.1 % of the range. The values within `reach` of it become harmonic on the mesh.
+  /// Each is then the mean of its neighbors with the cotangent weights of the mesh; negative
+  /// weights count as small positive ones. At all other points, a given value replaces the computed
+  /// value, and values beyond the range become the end of the range.
   /// @param reach     along edges, in world units: the size of the functions
   /// @param atPoints  the interpolation, with a row for each point of the mesh; NaN stays
   /// Cost O(points), and up to 1,000 sweeps over the points that need a correction. Same bits for

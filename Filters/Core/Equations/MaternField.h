@@ -28,10 +28,10 @@ struct FieldSamples
 /// is 1. Boundaries are natural: the normal derivative is 0. [Whittle 1954; Lindgren, Rue and
 /// Lindström: An explicit link between Gaussian fields and Gaussian Markov random fields, 2011]
 ///
-/// With K = κ² M + L, the samples are K⁻¹ w for ν = 1, K⁻¹ M K⁻¹ k for ν = 2 and K⁻¹ M K⁻¹ w for
-/// ν = 3. The noise w has the covariance M, and k has the covariance K (RandomLoads). K⁻¹ k then
-/// has the covariance K⁻¹, as the root of the operator of ν = 0 would give. Every solve is one of
-/// the hierarchy; nothing is factorized.
+/// Let K = κ² M + L. The samples are K⁻¹ w for ν = 1, K⁻¹ M K⁻¹ k for ν = 2, and K⁻¹ M K⁻¹ w for
+/// ν = 3. The noise w has the covariance M, and the noise k has the covariance K (RandomLoads).
+/// K⁻¹ k then has the covariance K⁻¹, which is the covariance for ν = 0. The hierarchy does every
+/// solve; no large matrix is factorized.
 class MaternField
 {
 public:

@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// The levels of a space with the stiffness L + Cᵀ W C in place of L. A component that a place
+/// The levels of a space with the stiffness L + Cᵀ W C instead of L. A component that a place
 /// touches has no constant any more. Keeps a reference to the space.
 class PenalizedLevels : public SpaceLevels
 {

@@ -114,8 +114,8 @@ Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
   int threads);
 
-/// Adds constants on components that nothing holds, to give them these means. A mean of NaN makes
-/// the whole component NaN.
+/// Adds constants to components that nothing holds, so that they have these means. A mean of NaN
+/// makes the whole component NaN.
 /// @param space  with the mass of the mesh
 /// @param means  rows = components of the functions, one column per component of the values
 void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const MultiVector& means,

@@ -15,8 +15,9 @@ struct EquationOptions
   MultigridOptions multigrid;
   SolveOptions solve;
   /// In (0, 1]: iterate until the estimated algebraic error is this fraction of the error of the
-  /// space. The tolerance in `solve` also ends the iteration. There, 0 stands for 1e-9, because the
-  /// coarser levels may contain the solution. An accuracy of 0: iterate to the tolerance alone.
+  /// space. The tolerance in `solve` also ends the iteration. In this case, 0 stands for 1e-9,
+  /// because the coarser levels may contain the solution. An accuracy of 0: iterate to the
+  /// tolerance alone.
   double accuracy = 0.0;
 };
 

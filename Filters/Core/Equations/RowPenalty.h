@@ -48,7 +48,8 @@ public:
   /// stays positive. That happens only below hats, on a level that preconditions.
   void AddTo(std::size_t level, double factor, SparseMatrix& A, int threads) const;
 
-  /// AddTo on a level that every process holds whole, while each has rows of its own. Collective.
+  /// AddTo for a level that every process holds completely, although each process has only its own
+  /// rows. Collective.
   void AddSumTo(std::size_t level, double factor, const DistributedRows& distributed,
     SparseMatrix& A, int threads) const;
 

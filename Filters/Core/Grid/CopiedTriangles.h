@@ -34,8 +34,8 @@ void KeepTriangles(TriangleMesh& mesh, std::vector<Id>& sourceCell, IsKept&& isK
   sourceCell.resize(kept);
 }
 
-/// Keeps the first of several triangles with the same corners, so that a face that is there twice
-/// counts once. Returns how many it drops.
+/// Keeps the first of several triangles with the same corners, so that a repeated face counts once.
+/// Returns how many it drops.
 /// @param sourceCell  as in KeepTriangles
 Id DropCopies(TriangleMesh& mesh, std::vector<Id>& sourceCell, int threads = 0);
 

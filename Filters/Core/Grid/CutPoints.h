@@ -25,7 +25,7 @@ inline void PlaceCutPoint(
 }
 
 /// Removes the ids of cut points that were never made. If several planes cut an edge in one point,
-/// only one of its ids is made.
+/// the point gets only one id.
 void DropUnmadeCutPoints(int threads, ClippedMesh& clipped);
 
 } // namespace gridfem

@@ -23,10 +23,10 @@ struct JoinedSeams
   std::vector<Id> sourceTriangle;
 };
 
-/// Gives points that coincide but for rounding the same coordinates, and divides triangles at the
-/// hanging nodes on their sides (see FindSeams). The points keep their numbers, and the triangles
-/// their order. The result is the same for any number of threads. A closed surface stays as it is.
-/// Throws InvalidInput (see Validate).
+/// Gives points that coincide except for rounding the same coordinates, and divides triangles at
+/// the hanging nodes on their sides (see FindSeams). The points keep their numbers, and the
+/// triangles their order. The result is the same for any number of threads. A closed surface stays
+/// as it is. Throws InvalidInput (see Validate).
 JoinedSeams JoinSeams(TriangleMesh& mesh, int threads = 0);
 
 /// Moves the points of a mesh that has some of the places, and returns which moved. The twin of a

@@ -8,7 +8,7 @@
 namespace gridfem
 {
 
-/// Sorts items, and keeps one of those that occur an odd number of times.
+/// Sorts items. Keeps one copy of each item that occurs an odd number of times.
 template<class Item>
 void KeepOdd(std::vector<Item>& items)
 {

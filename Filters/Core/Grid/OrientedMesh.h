@@ -1,4 +1,5 @@
-// Turns the triangles of a mesh so that all of a component face alike, and leaves out copies.
+// Turns the triangles of a mesh so that all triangles of a component face the same way, and leaves
+// out copies.
 #ifndef GridFEM_OrientedMesh_h
 #define GridFEM_OrientedMesh_h
 
@@ -18,9 +19,10 @@ struct OrientedMesh
   Index oneSided = 0;               // components that cannot be oriented, such as a Möbius strip
 };
 
-/// Orients a mesh. A component whose triangles already face alike stays as it is. Another closed
-/// one gets the side that makes its volume positive, and another open one that of most of its area.
-/// Cost O(n) for an oriented mesh, otherwise O(n log n). Same result for any number of threads.
+/// Orients a mesh. A component stays as it is if all its triangles already face the same way.
+/// Otherwise, a closed component gets the orientation that makes its volume positive. An open
+/// component gets the orientation of most of its area. Cost O(n) for an oriented mesh, otherwise
+/// O(n log n). Same result for any number of threads.
 /// @param weldCoincidentPoints  coincident points count as one
 OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
 

@@ -18,7 +18,7 @@ std::vector<double> CountedPatchAreas(
   const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches, int threads);
 
 /// Prefers the patch with the largest counted area, and the lowest number among equal areas. On a
-/// patch without area, functions have no integral, so no equation determines their values there.
+/// patch without area, functions have no integral, so no equation determines their values.
 class PatchChoice
 {
 public:

@@ -1,5 +1,5 @@
-// Numbers places by their exact coordinates. The numbers do not depend on who lists the places, nor
-// in which order.
+// Numbers places by their exact coordinates. The numbers do not depend on the process that lists
+// the places or on their order.
 #ifndef GridFEM_PlaceNumbers_h
 #define GridFEM_PlaceNumbers_h
 

@@ -1,4 +1,4 @@
-// Finds where open edges of a surface lie on each other: seams whose points coincide but for
+// Finds where open edges of a surface lie on each other: seams whose points coincide except for
 // rounding, and hanging nodes. Only open edges are searched.
 //
 // Two ends of open edges count as one if their distance is at most SeamTolerance times the longest

@@ -38,8 +38,9 @@ struct SurfaceEdges
   /// Edges of more than two triangles, each listed with one of them, ascending.
   std::vector<TriangleEdge> branching;
   /// One number per triangle: -1 if it faces against its component, otherwise 1. A component faces
-  /// as most of its area does, or outward if it is closed and its triangles do not face alike. The
-  /// number is 0 on one-sided components such as a Möbius strip. Components end at branching edges.
+  /// as most of its area does. A closed component whose triangles face different ways faces
+  /// outward. The number is 0 on one-sided components such as a Möbius strip. Components end at
+  /// branching edges.
   std::vector<signed char> side;
   Index numberOfComponents = 0;
   Index numberOfOneSided = 0; // number of one-sided components

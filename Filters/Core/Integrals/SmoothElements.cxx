@@ -14,7 +14,7 @@ constexpr int Size = SmoothFunctionsPerPatch;
 using FullMatrix = Eigen::Matrix<double, Size, Size, Eigen::RowMajor>;
 
 /// The weight of a parent's function for the coefficient of a function of its child, along one
-/// axis: a coarse B-spline is the sum of four fine ones with the weights 1/4, 3/4, 3/4 and 1/4.
+/// axis. A coarse B-spline is the sum of four fine ones with the weights 1/4, 3/4, 3/4 and 1/4.
 double AxisWeight(int octantBit, int child, int parent)
 {
   switch (octantBit + child + 1 - 2 * parent)
@@ -136,7 +136,7 @@ SmoothElementMatrix SumOfChildren(const SmoothLevel& fine, const Groups& childre
 SmoothElementMatrices IntegrateSmoothElements(const GridFunctions& grid, const QuadratureRule& rule,
   double normalStabilization, const SmoothWeights& weights, const Job& job)
 {
-  // Decides the number of iterations. With half of it, a quarter more.
+  // This share determines the number of iterations. With half of it, there are a quarter more.
   constexpr double BendShare = 0.2;
   SmoothElementMatrices elements;
   elements.mass.resize(grid.Finest().NumberOfPatches());

@@ -27,9 +27,9 @@ struct SmoothWeights
   const std::vector<double>* normal = nullptr;          // multiplies the weights along the normal
 };
 
-/// Integrates over every piece like IntegrateElements. The stiffness also has the weight s / 5 of
-/// |∂nn u|², in grid units: the first derivative along the normal is zero for functions that grow
-/// like the square of the distance from the surface.
+/// Integrates over every piece like IntegrateElements. The stiffness also contains |∂nn u|² with
+/// the weight s / 5, in grid units. Without it, functions that grow like the square of the distance
+/// from the surface would have no weight.
 SmoothElementMatrices IntegrateSmoothElements(const GridFunctions& grid, const QuadratureRule& rule,
   double normalStabilization, const SmoothWeights& weights = {}, const Job& job = {});
 

@@ -99,8 +99,8 @@ Field MapVectors(const TriangleMesh& mesh, const Field& s, const MatrixOf& matri
   return result;
 }
 
-/// Returns the metric of a mesh with the same triangles and moved points: that of the linear map
-/// between the triangles. Where it is singular, area and tensor are 0.
+/// Returns the metric of a mesh with the same triangles and moved points. It is the metric of the
+/// linear map between the triangles. Area and tensor are 0 on triangles where it is singular.
 /// @param singular  receives the number of triangles with area whose metric is singular
 TriangleMetric MetricOfMovedTriangles(
   const TriangleMesh& mesh, const TriangleMesh& moved, Id& singular);

@@ -26,7 +26,7 @@ public:
   /// @param withDirections  columns of X that get a direction, ascending
   void Step(Index wanted, const std::vector<Index>& withDirections);
 
-  /// Rayleigh-Ritz on X alone, with all products computed anew. P and W are lost.
+  /// Rayleigh-Ritz on X alone, with all products computed again. P and W are lost.
   void Renew();
 
 private:

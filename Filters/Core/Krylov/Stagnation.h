@@ -12,7 +12,7 @@ namespace gridfem
 class Stagnation
 {
 public:
-  /// Iterations over which the pace is measured. Shorter pieces of a history say little about the
+  /// Iterations over which the pace is measured. Shorter pieces of a history do not predict the
   /// rest: conjugate gradients with a good preconditioner are slow for some ten iterations before
   /// they gain speed.
   static constexpr int PaceWindow = 20;

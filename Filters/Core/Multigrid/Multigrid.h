@@ -26,11 +26,11 @@ struct MultigridOptions
 };
 
 /// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors. Solves need
-/// double. Float suits corrections of many columns that need only a few correct digits; it offers
-/// PreconditionRows alone. Sweeps may be in single precision with both.
-/// Const methods are safe to call from several threads, unless processes divide a level. The
-/// constructor and every method are then collective. Vectors of a distributed level have a row for
-/// each unknown that this process holds.
+/// double. Float suits corrections of many columns that need only a few correct digits. It offers
+/// only PreconditionRows. Sweeps may be in single precision with both. Const methods are safe to
+/// call from several threads, unless processes divide a level. The constructor and every method are
+/// then collective. Vectors of a distributed level have a row for each unknown that this process
+/// holds.
 template<class Real>
 class BasicMultigrid
 {

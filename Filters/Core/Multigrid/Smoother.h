@@ -28,8 +28,8 @@ struct PatchOrder
   /// matrix does not couple unknowns whose heights differ by more than one.
   std::vector<Index> slice;
   /// The number i + 4 j + 12 k of each unknown's grid corner; empty if unknowns have no corner.
-  /// Coupled unknowns differ by at most one in i, j and k, so the difference tells their relative
-  /// position.
+  /// Coupled unknowns differ by at most one in i, j and k, so the difference determines their
+  /// relative position.
   std::vector<Index> corner;
 };
 
@@ -117,9 +117,9 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps);
 std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOrder& order,
   int threads = 0, FactorPrecision precision = FactorPrecision::Mixed);
 
-/// The patch smoother for vectors in single precision. Pivots below 1e-6 stop the Cholesky, because
-/// rounding would disturb corrections in their directions more than these improve the others.
-/// Patches whose numbers leave the range of single precision are left alone.
+/// The patch smoother for vectors in single precision. Pivots below 1e-6 stop the Cholesky
+/// factorization. In their directions, rounding would disturb the corrections too much. Patches
+/// whose numbers leave the range of single precision are left alone.
 std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0);
 

@@ -42,7 +42,7 @@ struct HodgeDecomposition
 /// sphere. Other surfaces have one such field for each hole except the first, and two for each
 /// handle.
 ///
-/// Triangles with the opposite orientation to their component are treated as turned round. Vectors
+/// Triangles with the opposite orientation to their component are treated as turned around. Vectors
 /// at points are then replaced by their means over triangles. Edges of more than two triangles
 /// count as a boundary for w.
 /// @param v  three columns

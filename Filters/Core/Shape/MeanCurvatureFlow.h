@@ -38,8 +38,8 @@ struct FlowOptions
   MultigridOptions multigrid;
   SolveOptions solve;
 
-  /// Makes the functions of the moved mesh anew in every step. Empty: the functions of the start
-  /// are kept, and the metric is tracked on them. Not for the conformalized flow.
+  /// Makes new functions of the moved mesh in every step. Empty: the functions of the start are
+  /// kept, and the metric is tracked on them. Not for the conformalized flow.
   std::function<std::unique_ptr<FiniteElementSpace>(const TriangleMesh& moved, const Job& job)>
     rebuild;
 
@@ -87,9 +87,9 @@ struct StepSolution
 
 /// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once. The solve starts
 /// from the last X plus the displacement that the coarser levels find.
-/// From the second step on, patterns, prolongations and orders stay the same, unless the functions
-/// are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any number of
-/// threads, and for any path to a step. Hold a MemoryReuse over several steps.
+/// From the second step on, patterns, prolongations and orders stay the same, unless every step
+/// makes new functions. HeldBoundary describes the terms of a fixed boundary. Same bits for any
+/// number of threads, and for any path to a step. Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:

@@ -77,8 +77,8 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoinc
 double ShapeIndex(double minimum, double maximum);
 
 /// Mean curvatures H for display: 2/π atan(H / h), in (-1, 1). The unit h is the median of |H|, so
-/// half of the points lie beyond ±0.5, whatever a few extremes are. It is at least 1/√area, so that
-/// flat parts stay near 0.
+/// half of the points lie beyond ±0.5, and a few extremes do not matter. It is at least 1/√area, so
+/// that flat parts stay near 0.
 std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double area);
 
 } // namespace gridfem

@@ -33,9 +33,10 @@ struct SurfaceDerivatives
 /// smooths less than a grid of that unit does. The projection of a field on points also uses its
 /// gradient ∇f, so that a function of the space does not change.
 /// The smoothing flattens a projection towards a boundary, within about a unit of length. Slopes of
-/// projections therefore do not count there: they are continued from the triangles farther inside.
-/// Up to the boundary, gradients are of first order, and so is the Laplacian of a field on points.
-/// An error of about 3 % remains in the Laplacian, for a field on triangles about a sixth.
+/// projections are therefore not used there, but continued from the triangles farther inside. Up to
+/// the boundary, gradients are of first order. The Laplacian of a field on points is of first
+/// order, too. An error of about 3 % remains in the Laplacian, for a field on triangles about a
+/// sixth.
 /// @param mesh        that the space was made from
 /// @param onBoundary  ∫ b_i over the boundary, in world units, one column; null: no boundary
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of

@@ -2,8 +2,8 @@
 // equation with the gradients of the signal times σ, in a metric that depends on the principal
 // curvatures. [T §5.2]
 // The signal f is a function of the space. The solution of (λM + L) u = λ f + div σ∇f is therefore
-// f + v with (λM + L) v = StiffnessTimes(f, σ - 1). So σ = 1 changes nothing, for any metric and
-// tolerance, and the tolerance applies to the change.
+// f + v with (λM + L) v = StiffnessTimes(f, σ - 1). Therefore σ = 1 changes nothing, for any metric
+// and tolerance. The tolerance applies to the change.
 #ifndef GridFEM_SurfaceDetail_h
 #define GridFEM_SurfaceDetail_h
 

@@ -74,8 +74,9 @@ void ConstrainedEquation::UpdateSystem(
     });
 }
 
-/// A tolerance is relative to the energy of the whole solution. Where weights are far larger than
-/// elsewhere, they hide the rest of the solution. The stiffness of a cell is about 1.
+/// A tolerance is relative to the energy of the whole solution. If a few weights are far larger
+/// than the others, their energy hides the rest of the solution. The stiffness of a cell is about
+/// 1.
 void ConstrainedEquation::RequireResolvable(double weight) const
 {
   constexpr double MostTimes = 1e9;

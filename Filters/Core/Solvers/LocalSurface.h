@@ -36,14 +36,15 @@ public:
   const SurfaceBasis& Basis() const { return basis_; }
 
 protected:
-  /// For a surface whose mesh can change. It overrides Prepare and everything that tells the mesh.
+  /// For a surface whose mesh can change. It overrides Prepare and all functions that read the
+  /// mesh.
   explicit LocalSurface(Stages& stages) : Surface(stages) {}
 
-  /// Makes functions on a mesh. The depth is the one that suits the options.
+  /// Makes functions on a mesh. The options determine the depth.
   void BuildBasis(const std::shared_ptr<const TriangleMesh>& mesh, const SurfaceOptions& asked,
     const Progress& progress);
 
-  /// A metric in place of the one of the mesh.
+  /// A metric that replaces the metric of the mesh.
   struct GivenMetric
   {
     StageKey structure; // a change of it may change the structure of matrices

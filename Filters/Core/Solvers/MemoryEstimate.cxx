@@ -31,16 +31,16 @@ constexpr double ClipPerPiece = 102.0;
 // Memory that stays:
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
 constexpr double HeldPerPiece = 50.0; // piece 12, corners 4 each, cut points 48 (49)
-// Function space, system and hierarchy, for all levels (4/3 of the finest): tables 150, element
-// matrices 770, patterns and matrices of 2 functions with 18 entries each 600, stencils and
-// inverses 1110 (inverses alone 390 to 770), prolongations and their transposes 240.
+// Function space, system and hierarchy, for all levels (4/3 of the finest). Tables take 150,
+// element matrices 770, patterns and matrices of 2 functions with 18 entries each 600. Stencils and
+// inverses take 1110 (inverses alone 390 to 770), prolongations and their transposes 240.
 constexpr double HeldPerPatch = 3300.0;
 // Ten vectors for one right-hand side.
 constexpr double HeldPerFunction = 80.0;
 
-// Hats, whose points have six neighbors: tables 40, matrices with 7 entries per row 160, the
-// combined and ordered matrices 130, the transfer of 8 entries and its transpose 210, groups of
-// eight and their factors 60, vectors 80.
+// Hats, whose points have six neighbors. Tables take 40, matrices with 7 entries per row 160, the
+// combined and ordered matrices 130. The transfer of 8 entries and its transpose takes 210, groups
+// of eight and their factors 60, vectors 80.
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 

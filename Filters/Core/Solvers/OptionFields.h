@@ -62,7 +62,7 @@ inline EquationOptions EndedByTolerance(double tolerance)
   return equation;
 }
 
-/// The key of the options that a solution depends on besides its equation. The number of threads
+/// The key of all options that affect a solution, other than its equation. The number of threads
 /// changes no bit of the solution.
 inline StageKey KeyOf(const EquationOptions& equation)
 {
@@ -74,7 +74,7 @@ inline StageKey KeyOf(const EquationOptions& equation)
   return key;
 }
 
-/// An options struct names all its fields in a static function template
+/// An options struct names all its fields in a static function template:
 ///
 ///   template<class Self, class Visit>
 ///   static void ForEach(Self& self, Visit&& visit)

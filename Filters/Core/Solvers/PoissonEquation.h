@@ -27,8 +27,8 @@ struct PoissonRequest
   /// Not on a shared surface.
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
-  /// Starts from the last solution, whatever has changed besides the functions. Columns that the
-  /// last solution lacks start at zero.
+  /// Starts from the last solution, unless the functions have changed. Columns that the last
+  /// solution lacks start at zero.
   bool startsFromLast = false;
 };
 

@@ -169,7 +169,7 @@ void RequireWeightedValues(
   }
 }
 
-/// Reads the values. Those of weight 0 may be NaN.
+/// Reads the values. Values of weight 0 may be NaN.
 Field ReadWeightedValues(
   const Surface& surface, const Input& input, const Field* weight, const Options& options)
 {

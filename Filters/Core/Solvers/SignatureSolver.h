@@ -77,7 +77,7 @@ public:
     MultiVector heatKernel;        // a column per time
     WaveBands waveBands;
     MultiVector waveKernel; // a column per band
-    ///@{ One number per point where there are sources, else none.
+    ///@{ One number per point if there are sources, else empty.
     std::vector<double> diffusionDistance;
     std::vector<double> biharmonicDistance;
     ///@}

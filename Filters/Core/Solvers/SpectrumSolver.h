@@ -26,7 +26,7 @@ public:
     EquationOptions equation = EquationOfModes();
     int numberOfModes = 20;
     /// The wanted relative error of the eigenvalues of the surface. Above 0 it chooses the depth,
-    /// unless functions are given. Processes that share a surface cannot choose.
+    /// unless functions are given. Processes that share a surface cannot choose a depth.
     double accuracy = 0.0;
     bool zeroBoundaryValues = false; // modes vanish on the boundary, else nothing flows across it
 
@@ -45,7 +45,8 @@ public:
 
   struct Input
   {
-    /// There may be more modes than asked for: the last group of equal eigenvalues is whole.
+    /// There may be more modes than requested, because the last group of equal eigenvalues is
+    /// complete.
     bool completesMultiplets = false;
     Announcement announce;
   };

@@ -102,7 +102,7 @@ public:
   /// Whether several processes share the surface.
   virtual bool IsShared() const { return false; }
 
-  /// Runs a body that can throw on one process alone. Then it throws on all.
+  /// Runs a body that may throw on some of the processes only. Then it throws on all.
   virtual void Together(const std::function<void()>& body) const { body(); }
 
   /// Throws InvalidInput if one process has less memory than it needs.

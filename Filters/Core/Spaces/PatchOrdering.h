@@ -14,9 +14,9 @@ namespace gridfem
 /// not sorted by cell.
 PatchOrder OrderPatches(const PatchLevel& level);
 
-/// The same for quadratic functions. Along each axis, those of a block belong to cells -1 .. 8, and
-/// their rows reach cells -3 .. 10. The next block of the color begins at cell 16 with functions of
-/// cell 15, so blocks of one color are apart here as well.
+/// The same for quadratic functions. Along each axis, the functions of a block belong to cells
+/// -1 .. 8, and their rows reach cells -3 .. 10. The next block of the color begins at cell 16 with
+/// functions of cell 15, so blocks of one color are apart here as well.
 PatchOrder OrderPatches(const SmoothLevel& level);
 
 /// Orders some patches of a level. The rows of their functions also have entries of the level's

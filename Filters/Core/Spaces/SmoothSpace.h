@@ -11,12 +11,12 @@
 namespace gridfem
 {
 
-/// The unit of length is the side of a cell. Where solutions are smooth, the error falls with the
-/// third power of that side, and the error of eigenvalues with the fourth. A trilinear space of the
-/// same depth has about as many functions, with a quarter of the entries in its matrices.
-/// Many spaces may share functions and operators. A new metric or new weights belong to a single
-/// space. Metrics and weights are constant on each triangle, which is the element that Weigh and
-/// StiffnessTimes have numbers for.
+/// The unit of length is the side of a cell. The error of smooth solutions falls with the third
+/// power of this side, and the error of eigenvalues with the fourth. A trilinear space of the same
+/// depth has about as many functions, with a quarter of the entries in its matrices. Many spaces
+/// may share functions and operators. A new metric or new weights belong to a single space. Metrics
+/// and weights are constant on each triangle. The triangles are the elements of Weigh and
+/// StiffnessTimes.
 class SmoothSpace : public FiniteElementSpace
 {
 public:
@@ -59,7 +59,7 @@ public:
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 
   std::unique_ptr<FiniteElementSpace> Copy() const override;
-  /// The metric is that of the mesh with its points moved to the values of the embedding.
+  /// The metric is the metric of the mesh with its points moved to the values of the embedding.
   Id SetMetric(const MultiVector& embedding, const Job& job = {},
     ElementParts parts = ElementParts::Both) override;
   void SetMetricOnTriangles(

@@ -18,7 +18,7 @@ struct Components
 {
   std::vector<Index> ofFunction; // 0 .. count - 1
   Index count = 0;
-  /// Per component: something in the stiffness holds the functions, so that constants have energy.
+  /// Whether the stiffness holds the functions of a component, so that constants have energy.
   /// Empty: none.
   std::vector<char> isHeld;
 };

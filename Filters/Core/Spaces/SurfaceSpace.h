@@ -46,8 +46,9 @@ public:
   virtual MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const = 0;
 
-  /// Computes LoadOfGradientsOf for the coordinates of the mesh's points, as functions in space. On
-  /// a grid with a weight of the normal derivative, they remain the solution of their own equation.
+  /// Computes LoadOfGradientsOf for the coordinates of the mesh's points, as functions in space.
+  /// The coordinates remain the solution of their own equation, even on a grid with a weight of the
+  /// normal derivative.
   virtual MultiVector LoadOfGradientsOfCoordinates(
     const Field* scale, const Job& job = {}) const = 0;
 

@@ -9,17 +9,16 @@ namespace gridfem
 {
 
 /// A power of four near the area in the metric over the area of the mesh; 1 if both are nearly the
-/// same. Division by it rounds nothing. A stiffness has no size, so it tells the usual mass.
-/// 1 where processes divide all levels, because they know no metric.
+/// same. Division by it rounds nothing. It is 1 if processes divide all levels, because they know
+/// no metric.
 double MassUnit(const SpaceLevels& space, int threads);
 
 void DivideBy(double unit, SparseMatrix& mass);
 
-/// Converts a spectrum of the problem with the mass M / from to that with M / to.
+/// Converts a spectrum of the problem with the mass M / from to the mass M / to.
 void ConvertUnit(double from, double to, Spectrum& spectrum);
 
-/// Whether a metric stretches the surface so much that its box tells nothing about its lowest
-/// value.
+/// Whether a metric stretches the surface so much that its box does not determine its lowest value.
 /// @param mass  of the finest level
 bool IsStretched(const SpaceLevels& space, const SparseMatrix& mass, int threads);
 

@@ -1,4 +1,4 @@
-// Compares the modes of a level with those of a coarser level. Modes are matched by their
+// Compares the modes of a level with the modes of a coarser level. Modes are matched by their
 // functions, because eigenvalues that are close to each other may change places between levels.
 #ifndef GridFEM_ModeMatch_h
 #define GridFEM_ModeMatch_h
@@ -9,10 +9,10 @@
 namespace gridfem
 {
 
-/// For numbers that belong to the modes of a coarser level, finds those of the modes of this level.
-/// A mode takes the mean of the coarser numbers, weighted by the fourth powers of the products of
-/// the functions. With squares, a small part of a far higher mode would count. The numbers of a
-/// mode are NaN if half of it is in no coarser mode with a number.
+/// Assigns numbers of the modes of a coarser level to the modes of this level. A mode takes the
+/// mean of the coarser numbers, weighted by the fourth powers of the products of the functions.
+/// With squares, a small part of a far higher mode would count. The numbers of a mode are NaN if
+/// half of it is in no coarser mode with a number.
 /// @param prolongation  from the coarser level to the level of the problem
 /// @param coarser       orthonormal modes of the coarser level
 /// @param numbers       rows = coarser modes; NaN where unknown

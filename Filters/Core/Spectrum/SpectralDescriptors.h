@@ -33,7 +33,7 @@ Index CountZeroModes(const PointModes& modes);
 /// first mode fades.
 std::vector<double> HeatTimes(const PointModes& modes, int count);
 
-/// The heat that remains at x, if it was put there, times the area: area Σ exp(-λ t) φ(x)². Rows =
+/// The part of the heat from x that remains at x, times the area: area Σ exp(-λ t) φ(x)². Rows =
 /// points, a column per time. It has no unit: scaling the mesh and the times changes nothing. On a
 /// connected surface it is 1 for long times.
 MultiVector HeatKernelSignature(

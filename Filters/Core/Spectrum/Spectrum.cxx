@@ -126,7 +126,7 @@ private:
   Index coarserConstants_ = 0; // number on the level that the pairs come from
   EigenPairs<Real> pairs_;
   EigenPairs<Real> coarser_; // of the next coarser level
-  /// Per pair, its values on the next coarser levels: one column for each level, at most two.
+  /// The values of each pair on the next coarser levels, one column for each of at most two levels.
   Eigen::MatrixXd valuesBelow_;
   bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;

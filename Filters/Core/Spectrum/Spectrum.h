@@ -14,8 +14,8 @@ struct SpectrumOptions
   /// The error of the space is far larger at any depth that fits into memory.
   double tolerance = 1e-6;     // in (0, 1)
   int maximumIterations = 100; // per level, >= 0
-  /// Continues beyond numberOfModes to the end of the multiplet that is cut there. The constants
-  /// are not completed, because ten thousand components have ten thousand of them.
+  /// Continues beyond numberOfModes to the end of the last multiplet. The constants are not
+  /// completed, because ten thousand components have ten thousand of them.
   bool completeMultiplets = false;
   /// V: it needs at most one more step than W, and few steps are needed. A cycle costs a quarter
   /// less.

@@ -16,8 +16,8 @@ namespace gridfem
 bool IsMultiplet(double a, double b, Id count);
 
 /// Approximate lowest value of a connected surface. It follows from the area as on a sphere, or
-/// from the length if the surface is so thin that the area says nothing. A shift far above the
-/// values would cost their digits.
+/// from the length if the surface is very thin. A shift far above the values would cost their
+/// digits.
 double LowestValue(double area, double side);
 
 struct EigenvalueErrors
@@ -34,20 +34,20 @@ struct ValuesOnLevels
   Eigen::VectorXd afterNext; // of a quarter
 };
 
-/// Relative errors of the finest eigenvalues as approximations of the surface's. On smooth surfaces
-/// the error falls by four from level to level, at thin edges by two. The ratio of the two
-/// differences tells which. It is not trusted to be better than four. The squared residuals, the
-/// error of the iteration, are added. Errors are at most 1, which stands for unknown: the next
-/// level does not have the mode.
+/// Relative errors of the finest eigenvalues as approximations of the eigenvalues of the surface.
+/// From level to level the error falls by four on smooth surfaces, and by two at thin edges. The
+/// ratio of the two differences shows the rate, which is never assumed to be better than four. The
+/// squared residuals, the error of the iteration, are added. An error of 1 stands for unknown: the
+/// next level does not have the mode.
 ///
 /// An error is trusted if the ratio shows that the differences fall. An unresolved surface has
 /// differences that stay or grow.
 /// @param residuals  one per wanted mode, at most as many as there are values
 EigenvalueErrors EstimateErrors(const ValuesOnLevels& values, const std::vector<double>& residuals);
 
-/// The depth at which all these errors, made at `depth`, should be at most `accuracy`. Each level
-/// divides them by four. At least `depth`, at most MaximumDepth. Throws InvalidInput for an
-/// accuracy outside (0, 1).
+/// The depth at which all these errors should be at most `accuracy`, if they were found at `depth`.
+/// Each level divides them by four. At least `depth`, at most MaximumDepth. Throws InvalidInput for
+/// an accuracy outside (0, 1).
 int DepthForAccuracy(const std::vector<double>& estimatedErrors, int depth, double accuracy);
 
 /// The least depth that should give `modes` eigenvalues to this accuracy, before anything is

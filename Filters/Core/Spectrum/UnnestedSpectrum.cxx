@@ -126,8 +126,8 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
   return report;
 }
 
-/// For each pair, the value, the error and the trust (0 or 1) of the same mode of the start. NaN if
-/// the start has no such mode.
+/// Returns, for each pair, the value, the error and the trust (0 or 1) of the same mode of the
+/// start. They are NaN if the start has no such mode.
 Eigen::MatrixXd MatchStart(const SpectralProblem<double>& problem, const EigenPairs<double>& pairs,
   const SparseMatrix& prolongation, const Spectrum& start)
 {

@@ -26,8 +26,9 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
 
 /// Returns the array of a solution for a chosen array, with the names of its components. It is of
-/// bytes if the chosen array holds colors, else float if it is, else double. Colors are rounded and
-/// clamped. Where a solution has no color, NaN, it is that of the given point, or black.
+/// bytes if the chosen array holds colors, float if the chosen array is float, else double. Colors
+/// are rounded and clamped. Points without a solution (NaN) keep their given color, or become
+/// black.
 /// @param dataType  the type of the chosen array on all ranks
 vtkSmartPointer<vtkDataArray> MakeSolution(
   const char* name, const MultiVector& values, const InputArray& given, int dataType);

@@ -40,7 +40,7 @@ void RequireGoodCells(vtkPolyData* surface);
 
 /// Joins pieces, one for each owner, a rank or a block. Empty pieces may be among them.
 /// - Cells that vtkGhostType marks as duplicates are left out, with their points. They are found
-///   among the other cells, so that they get the values of those.
+///   again among the other cells, so that they get the values of these cells.
 /// - Points with the same global id are one. If some piece lacks global ids and
 ///   `weldCoincidentPoints` is on, points of two owners are one if they agree in coordinates and in
 ///   all arrays. Points of the same owner stay apart.
