@@ -21,7 +21,7 @@ import numpy
 WAYS = ({"Depth": 5}, {"Depth": 6}, {"Depth": 5, "FunctionSpace": 1})
 WORDS = ("converged", "in part", "warned", "refused", "NaN", "crashed")
 
-# Whose values are no numbers on components where nothing is known.
+# Filters whose values are NaN on components without known values or sources.
 IN_PARTS = ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation")
 
 PAGE = """# On real meshes

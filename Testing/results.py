@@ -1,8 +1,8 @@
 """Says what a run of the tests has not tested. Usage: results.py TESTS.XML [whole]
 
-Prints the number of skipped tests for each reason. If CI=true, two things are failures: a test that
-was skipped for another reason than a missing folder of real meshes, and, in a whole run, a group of
-tests that is not there, for example because mpiexec was not found when the build was configured.
+Prints the number of skipped tests for each reason. If CI=true, a skipped test is a failure, unless the
+folder of real meshes is missing. In a whole run, a missing group of tests is a failure as well, for
+example because mpiexec was not found when the build was configured.
 """
 import collections
 import os

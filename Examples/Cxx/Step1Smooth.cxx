@@ -1,4 +1,5 @@
-// Step 1: one filter on a mesh. Smooths the shape, and prints the filter's report on its answer.
+// Step 1: applies one filter to a mesh. Smooths the shape, and prints the filter's report on its
+// answer.
 //
 //   gridfem_step_1 MESH.vtp DEPTH SMOOTH.vtp
 

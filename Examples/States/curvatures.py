@@ -1,11 +1,11 @@
 """A ParaView state: how a surface bends. The left view has the mean curvature, blue in hollows and
 red on bulges. The right view has the shape index, which tells a valley from a ridge of any size.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=curvatures.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
 Smoothing Scale of Curvatures for a noisy scan.
 """
 

@@ -1,12 +1,12 @@
 """A ParaView state: a surface smoothed (above) and sharpened (below). The columns keep nothing,
 valleys, ridges, and both.
 
-In ParaView: File > Load State (with the plugin loaded), for example with a scan
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own, such as a scan:
 
     GRIDFEM_MESH=scan.ply paraview --script=detail.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. The eight filters
-share one basis. Change Detail Scale or Transfer Function of any of them; with Auto Apply on, the
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. The eight
+filters share one basis. Change Detail Scale or Transfer Function of any of them; with Auto Apply on, the
 surface follows.
 """
 

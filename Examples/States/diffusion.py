@@ -1,11 +1,11 @@
 """A ParaView state: stripes that spread along a surface as heat does. The left view has the stripes, the
 right one a time step.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=diffusion.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Play the
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Play the
 animation, or change Diffusion Time of Diffused.
 """
 

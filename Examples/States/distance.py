@@ -1,11 +1,11 @@
 """A ParaView state: distances along a surface. The left view has isolines around one point, the right one
 the distance from a slice, with a sign.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=distance.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
 Source Point Ids of Distance, or move the plane of Slice.
 """
 

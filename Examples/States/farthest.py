@@ -1,12 +1,12 @@
 """A ParaView state: points spread evenly over a surface. The left view has their regions, the right one the
 distance from the nearest of them.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=farthest.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change Number Of Points
-of Points.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
+Number Of Points of Points.
 """
 
 import os

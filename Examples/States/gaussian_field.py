@@ -1,12 +1,12 @@
 """A ParaView state: a random field on a surface. The left view has a sample, the right one the standard
 deviation of two hundred samples, which is larger at the boundary.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=terrain.ply paraview --script=gaussian_field.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it half a ring with waves is shown. Change Range,
-Smoothness and Seed of Sample.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows half a ring with waves. Change
+Range, Smoothness and Seed of Sample.
 """
 
 import os

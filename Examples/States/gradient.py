@@ -1,11 +1,11 @@
 """A ParaView state: a field of vectors taken apart. The left view has the flow out of sources with
 its potential. The right view has the eddies with their stream function.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=gradient.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Choose
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Choose
 other vectors of your own as Array of Parts.
 """
 

@@ -1,11 +1,11 @@
 """A ParaView state: values from a few points, spread over a surface: harmonic in the left view, with peaks
 at the points, biharmonic in the right one, smooth there.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=interpolation.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Select
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Select
 points of a surface with an array, press Copy Active Selection in the panel, and Apply.
 """
 

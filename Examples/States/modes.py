@@ -1,11 +1,11 @@
 """A ParaView state: eigenfunctions of a surface, one for each time step.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=output/modes.vtp paraview --script=modes.py
 
-GRIDFEM_MESH names a .vtp file; without it a ring is shown. Play the animation to
-step through the modes.
+GRIDFEM_MESH names a .vtp file. Without it, the state shows a ring. Play the animation to step through
+the modes.
 """
 
 import os

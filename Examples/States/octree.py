@@ -1,12 +1,12 @@
 """A ParaView state: how a surface is laid into an octree. The left view has the cut surface and its
 cells, the right one a basis function, which lives on one connected piece of its support.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=octree.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
-Depth of Clip, or Basis Id of Basis, and Apply.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
+Depth of the source Clip, or Basis Id of Basis, and press Apply.
 """
 
 import os

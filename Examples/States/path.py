@@ -1,12 +1,12 @@
 """A ParaView state: shortest paths along a surface. The left view has the paths from one point to five others,
 colored by their length up to each point. The right view has the closed line through all six.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=path.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. To draw paths of your own,
-select points of Mesh, show the panel of Paths, and press Copy Active Selection.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. To draw
+paths of your own, select points of Mesh, show the panel of Paths, and press Copy Active Selection.
 """
 
 import os

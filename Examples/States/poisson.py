@@ -1,12 +1,12 @@
 """A ParaView state: noise is taken off an array. The left view has noisy stripes. The right view
 has the result of Screened Poisson.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=poisson.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
-Screening Weight of Smoothed: larger keeps more detail, smaller less.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
+Screening Weight of Smoothed: a larger weight keeps more detail.
 """
 
 import os

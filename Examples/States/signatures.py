@@ -2,12 +2,12 @@
 has the heat kernel signature, the same at points that look alike, the right one the biharmonic
 distance from a point.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=signatures.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
-Shown Scale or Source Point Ids of Signatures: the modes stay.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
+Shown Scale or Source Point Ids of Signatures; the modes stay.
 """
 
 import os

@@ -1,12 +1,12 @@
 """A ParaView state: detail in one place, as with a spray can. The left view has the input and the
 selection. The right view has the selection sharpened and the rest smoothed.
 
-In ParaView: File > Load State (with the plugin loaded), for example with a scan
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own, such as a scan:
 
     GRIDFEM_MESH=scan.ply paraview --script=spray.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Select other points
-or cells in the left view, press Copy Active Selection in the panel of Detail, and Apply.
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Select
+other points or cells in the left view, press Copy Active Selection in the panel of Detail, and Apply.
 """
 
 import os

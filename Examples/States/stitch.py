@@ -1,11 +1,11 @@
 """A ParaView state: the colors of two scans made one. The left view has the colors of two
 scanners, one of them too bright and too red. The right view has the result of Stitch Colors.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 
     GRIDFEM_MESH=scan.ply paraview --script=stitch.py
 
-GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
+GRIDFEM_MESH names a file that ParaView reads. Without it, the state shows a ring with waves. Change
 Blend Width or Reference Label of Stitched.
 """
 

@@ -1,13 +1,13 @@
 """A ParaView state: folds that nearly touch unfold, with plain functions in the left view and
 connectivity-aware functions in the right view.
 
-In ParaView: File > Load State (with the plugin loaded), for example with the main job's knot
+Load the plugin in ParaView and choose File > Load State. Or show the knot of the main job:
 
     GRIDFEM_MESH=output/modes.vtp paraview --script=unfolding.py
 
-GRIDFEM_MESH names a .vtp file; without it a ring is shown, which has no folds. Play the animation.
-Plain functions pull both strands together where they share a cell. Connectivity-aware functions let
-them part.
+GRIDFEM_MESH names a .vtp file. Without it, the state shows a ring, which has no folds. Play the
+animation. Plain functions pull both strands together where they share a cell. Connectivity-aware
+functions let them part.
 """
 
 import os

@@ -1,10 +1,10 @@
 // Frames per second of Surface Detail, while a user moves a slider. [T Table 5.5]
 //
-// A frame ends with new positions of all vertices. It has the states of the thesis: "solve" is one
-// cycle from the last solution; "rhs" integrates a new scale first; "matrix" weighs the elements
-// for a new transfer function before that and brings the hierarchy up to date. "scale" is what the
-// filter does for another DetailScale: the solution is linear in it, so nothing is solved. The peer
-// solves the same equation on hat functions and factorizes again.
+// A frame ends with new positions of all vertices. It has the states of the thesis. "solve" is one
+// cycle from the last solution. "rhs" integrates a new scale before this cycle. "matrix" also
+// weighs the elements for a new transfer function and updates the hierarchy. "scale" is the work of
+// the filter for another DetailScale. The solution is linear in the scale, so nothing is solved.
+// The peer solves the same equation on hat functions and factorizes again.
 #include "Cholmod.h"
 #include "Measure.h"
 #include "Meshes.h"

@@ -105,7 +105,7 @@ std::string Quotient(double estimate, double real)
   return Text("%.2f", estimate / real);
 }
 
-/// The estimate of the memory of spectra against the growth from the system on.
+/// Compares the estimated memory of spectra with the growth after the system is built.
 void RunSpectra()
 {
   std::vector<SpectrumCase> cases{ { RockerArm(2), 7, 20 }, { RockerArm(2), 7, 100 },

@@ -48,7 +48,7 @@ double BytesOf(int count, MPI_Datatype type)
 
 } // namespace
 
-/// MPI's interface for profiling: these stand before the library's own.
+/// MPI's interface for profiling: these functions replace the functions of the library.
 extern "C" int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int rank, int tag,
   MPI_Comm ranks, MPI_Request* request)
 {

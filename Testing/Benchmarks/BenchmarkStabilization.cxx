@@ -1,5 +1,6 @@
-// The effect of the weight of the normal derivative: iterations to an energy of 1e-8 at depths 5 to
-// 8, and the difference from the solutions of depth 8 without it. [NUMERICS §6]
+// Shows the effect of the weight of the normal derivative. Prints the iterations to an energy of
+// 1e-8 at depths 5 to 8, and the difference from the solutions of depth 8 without the weight.
+// [NUMERICS §6]
 #include "Hybrid.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"

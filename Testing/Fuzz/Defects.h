@@ -1,5 +1,6 @@
-// Clean surfaces, and the same surfaces with the defects that files have: seams that rounding left
-// open, hanging nodes, turned and repeated triangles, and points of parts that were cut away.
+// Makes clean surfaces, and the same surfaces with defects as in files. The defects are seams that
+// rounding left open, hanging nodes, turned and repeated triangles, and points of parts that were
+// cut away.
 #ifndef GridFEM_Testing_Defects_h
 #define GridFEM_Testing_Defects_h
 

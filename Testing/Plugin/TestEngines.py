@@ -55,8 +55,8 @@ class Engines(unittest.TestCase):
     def compare(self, call):
         """call: takes a package, a mesh, and options.
 
-        Both round in the same way except for the last digit. If single precision corrects a solution,
-        such a digit becomes 6e-8 of the last correction, which is small itself.
+        Both engines round in the same way except for the last digit. If single precision corrects a
+        solution, such a digit becomes 6e-8 of the last correction, which is small itself.
         """
         for name, (points, cells) in self.meshes.items():
             for space in (0, 1):

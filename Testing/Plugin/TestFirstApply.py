@@ -8,8 +8,8 @@ import plugin
 
 DEPTH = 4
 
-# The arrays that color a filter by the hints of its panel. For a filter without an entry, any array
-# of its output is right.
+# The arrays that color a filter by the hints of its panel. A filter without an entry may show
+# any array of its output.
 COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),

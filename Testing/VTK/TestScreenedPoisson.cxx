@@ -102,7 +102,7 @@ TEST_F(ScreenedPoisson, AGivenGradientCountsAsTheValuesOwn)
   const auto solution = this->Solution();
   EXPECT_LT(Difference(solution, PointValues(input, "xy")), 1e-6);
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Solution")->GetNumberOfComponents(), 2);
-  // Any scale and a scale array multiply.
+  // A scale and a scale array are multiplied.
   filter->SetGradientScale(0.5);
   AddPointArray(input, "two", 1, [](const Vec3&, int) { return 2.0; });
   filter->SetInputArrayToProcess(2, 0, 0, Points, "two");
@@ -137,8 +137,8 @@ TEST_F(ScreenedPoisson, SmoothingLowersTheWaveAndSharpeningRaisesIt)
     const auto solution = this->Solution();
     return *std::max_element(solution.begin(), solution.end());
   };
-  // z is an eigenfunction of the unit sphere: -Δz = 2z, area 4π, so with w = 10 / (4π) in world
-  // units u = z (w + 2 s) / (w + 2). Depth 4 resolves it to about a percent.
+  // z is an eigenfunction of the unit sphere: -Δz = 2z. The area is 4π, so w = 10 / (4π) in world
+  // units, and u = z (w + 2 s) / (w + 2). Depth 4 resolves it to about a percent.
   const double w = 10.0 / (4 * 3.14159265358979);
   for (const double scale : { 0.0, 0.5, 2.0 })
   {

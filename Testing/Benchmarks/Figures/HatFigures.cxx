@@ -37,7 +37,7 @@ double SquaredSide(const TriangleMesh& mesh)
   return side * side;
 }
 
-/// The hybrid's own number of every row.
+/// The number of every row in the hybrid hierarchy.
 std::vector<Index> FunctionsOfRows(const CotangentSystem& system, const HybridProblem& hybrid)
 {
   std::vector<Index> functions(system.mass.rows());

@@ -85,7 +85,7 @@ struct ChangingMesh
   }
 };
 
-/// The ring laid into the plane around the vertex.
+/// The ring around the vertex, laid into the plane.
 std::vector<Vec2> Flatten(const ChangingMesh& mesh, Id vertex, const std::vector<Id>& ring)
 {
   std::vector<double> angle{ 0.0 };

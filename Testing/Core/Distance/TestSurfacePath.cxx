@@ -174,9 +174,9 @@ Id PointAt(const TriangleMesh& mesh, const Vec3& place)
   return nearest - mesh.points.begin();
 }
 
-/// The distance on the unit cube from (0, 0, 0) to a point, through unfolded faces: straight on the
-/// three faces at the source, and over one edge to each of the other three. A path over two faces
-/// in between is never shorter from a corner.
+/// The distance on the unit cube from (0, 0, 0) to a point, through unfolded faces. The path is
+/// straight on the three faces at the source. It crosses one edge to each of the other three faces.
+/// A path over two faces in between is never shorter from a corner.
 double FromCornerOfCube(const Vec3& p)
 {
   double least = 10.0;

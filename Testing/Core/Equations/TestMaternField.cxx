@@ -44,7 +44,7 @@ MultiVector SamplesOf(
   return all;
 }
 
-/// Correlation at the distance range * r.
+/// Returns the correlation at the distance range * r.
 double Matern(double r, int smoothness)
 {
   const double x = std::sqrt(8.0 * smoothness) * r;

@@ -1,4 +1,4 @@
-// Which points paths connect, and what happens where there is no path.
+// Tests the choice of the points that paths connect, and points that no path reaches.
 #include "Solvers/PathSolver.h"
 
 #include "Base/Errors.h"

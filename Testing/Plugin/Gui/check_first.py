@@ -1,5 +1,6 @@
-"""Checks what TestGuiFirstApply.sh has seen: a surface in every view, gently changed at most, with the
-array that the input has, and colors that do not depend on what was shown before."""
+"""Checks the pictures and arrays of TestGuiFirstApply.sh. Every view shows a surface that is changed
+only gently and has the array of the input. The colors do not depend on earlier filters.
+"""
 import os
 import sys
 import unittest
