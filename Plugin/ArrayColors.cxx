@@ -1,6 +1,7 @@
 #include "ArrayColors.h"
 
 #include "ColorMaps.h"
+#include "ParaViewVersions.h"
 #include "Watch.h"
 
 #include "vtkClientServerInterpreter.h"
@@ -162,7 +163,7 @@ void SetColors(vtkSMProxy* map, vtkPVArrayInformation* array, Colors colors)
   }
   else if (isMagnitude || (colors == Colors::Sequential && !hasNegative))
   {
-    vtkSMTransferFunctionProxy::ApplyPreset(map, "Viridis (matplotlib)", true);
+    vtkSMTransferFunctionProxy::ApplyPreset(map, gridfem::ViridisPreset(), true);
   }
 }
 

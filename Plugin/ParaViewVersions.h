@@ -2,6 +2,8 @@
 #ifndef GridFEM_ParaViewVersions_h
 #define GridFEM_ParaViewVersions_h
 
+#include "vtkSMTransferFunctionPresets.h"
+
 #if __has_include("vtkSMColorMapEditorHelper.h")
 #include "vtkSMColorMapEditorHelper.h"
 #else
@@ -17,6 +19,13 @@ using Coloring = vtkSMColorMapEditorHelper; // ParaView 5.13 and newer
 #else
 using Coloring = vtkSMPVRepresentationProxy;
 #endif
+
+/// The name of ParaView's preset of the colors Viridis, which ParaView 6 has shortened.
+inline const char* ViridisPreset()
+{
+  const bool isShort = vtkSMTransferFunctionPresets::GetInstance()->HasPreset("Viridis");
+  return isShort ? "Viridis" : "Viridis (matplotlib)";
+}
 
 } // namespace gridfem
 

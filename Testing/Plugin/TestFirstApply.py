@@ -305,7 +305,7 @@ class ColorMaps(unittest.TestCase):
 
     def test_a_color_map_of_the_user_is_left_alone(self):
         colors = simple.GetColorTransferFunction("Distance")
-        colors.ApplyPreset("Inferno (matplotlib)", True)
+        colors.ApplyPreset("Black-Body Radiation", True)  # a name of all versions
         expected = list(colors.RGBPoints)[1:4]
         shown = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
         self.assertEqual(list(shown.RGBPoints)[1:4], expected)

@@ -71,7 +71,7 @@ struct Estimate
 /// 4π ν κ^(2ν) / (κ² + l (l + 1))^(ν + 1) along each harmonic of norm 1.
 TEST(MaternField, HasTheVarianceOfEachDegreeOnASphere)
 {
-  constexpr Id Samples = 400;
+  constexpr Id Samples = 200;
   constexpr double Range = 1.0;
   const TriangleMesh mesh = Transform(GeodesicSphere(12), { 1, 2, 3 }, 0.4);
   const MultiVector p = PointCoordinates(mesh);

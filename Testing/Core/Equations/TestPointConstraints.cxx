@@ -134,12 +134,12 @@ TEST_P(PointConstraints, AreMetInFewIterationsHoweverManyThereAre)
   }
 }
 
-TEST_P(PointConstraints, OfAHundredThousandPointsAreMet)
+TEST_P(PointConstraints, OfManyPointsAreMet)
 {
-  const TriangleMesh mesh = Transform(GeodesicSphere(160), { 1, 2, 3 }, 0.3);
-  const auto space = Build(mesh, GetParam(), 8);
+  const TriangleMesh mesh = Transform(GeodesicSphere(80), { 1, 2, 3 }, 0.3);
+  const auto space = Build(mesh, GetParam(), 7);
   std::vector<Id> points = Every(1, static_cast<Id>(mesh.points.size()));
-  points.resize(100000);
+  points.resize(25000);
   const MultiVector values = WavesAt(mesh, points).col(0);
   const ConstrainedSolution found = Solve(*space, 0.0, {}, points, values);
   EXPECT_TRUE(found.report.converged);

@@ -231,7 +231,7 @@ TEST(DiffusionSolver, SmoothsByTheGaussianOnAPlane)
 /// On a unit sphere the heat of a point has the mean cosine exp(-2 t) of its distance.
 TEST(DiffusionSolver, SmoothsByTheKernelOfASphere)
 {
-  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(40));
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(24));
   MultiVector areas = MultiVector::Zero(static_cast<Id>(mesh->points.size()), 1);
   for (const auto& corners : mesh->triangles)
   {
