@@ -127,7 +127,7 @@ bool HasOurRange(vtkSMProxy* map)
   return std::abs(range[0] - noted[0]) <= tolerance && std::abs(range[1] - noted[1]) <= tolerance;
 }
 
-/// Whether something visible uses a map besides a filter. The filter's input will be hidden.
+/// Whether something visible uses a map, other than a filter. The filter's input will be hidden.
 bool IsUsedElsewhere(vtkSMProxy* map, vtkSMSourceProxy* filter)
 {
   const vtkSMProxy* hidden = vtkSMPropertyHelper(filter, "Input", true).GetAsProxy();

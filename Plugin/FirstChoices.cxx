@@ -81,8 +81,8 @@ bool ServesTheMesh(vtkPVDataInformation* data, const Array& array)
   return array.name == "Normals" || array.name.compare(0, 3, "vtk") == 0;
 }
 
-/// The array that the list should begin with: the coloring one if it is offered, or else the only
-/// one.
+/// The array with which the list should begin: the array that colors the input if it is offered, or
+/// else the only array.
 Array ChooseFrom(vtkSMArrayListDomain* list, const std::string& none, vtkPVDataInformation* data,
   const Array& coloring)
 {

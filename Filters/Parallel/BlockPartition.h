@@ -43,7 +43,7 @@ public:
   std::pair<MortonKey, MortonKey> CellsOf(int rank, int depth) const;
 
   /// The cells for which a rank clips: its own blocks, the blocks around them, and a few cells
-  /// more. The margin is there because slivers are decided a little further away.
+  /// more. The margin is necessary because slivers are decided a little further away.
   CellRegion RegionOf(int rank) const;
 
   struct RanksNear

@@ -32,7 +32,7 @@ public:
   /// The number of threads that this rank may use. Ranks share the threads of a machine.
   int ThreadsOfRank(int wanted) const;
 
-  /// Replaces the numbers by those of the first rank that has any.
+  /// Replaces the numbers by the numbers of the first rank that has any.
   void AgreeOn(std::vector<double>& numbers) const;
 
   ///@{ Solvers call them for a whole surface alone. They throw std::logic_error.

@@ -1,4 +1,4 @@
-// Numbers the hat functions of a mesh on several ranks, and tells which of them are here.
+// Numbers the hat functions of a mesh on several ranks, and lists the functions on this rank.
 #ifndef GridFEM_HatNumbering_h
 #define GridFEM_HatNumbering_h
 

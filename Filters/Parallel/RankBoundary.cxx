@@ -11,8 +11,8 @@ namespace gridfem
 namespace
 {
 
-/// Whether a part of the edges is in the cells of this rank, on a grid. Edges that exist only
-/// because no more triangles were received have no part there.
+/// Whether a part of the edges is in the cells of this rank, on a grid. Some edges exist only
+/// because no more triangles were received. Such edges have no part of the boundary.
 bool HasPart(const RankSpace& space, const std::vector<TriangleEdge>& edges)
 {
   const EdgeSamples samples = space.Own().SamplesOfSegments(SegmentsOf(edges, space.Own().Mesh()));
@@ -32,7 +32,7 @@ Ends EndsOf(const TriangleEdge& edge, const TriangleMesh& mesh)
 
 /// Collective. Boundary edges of the triangles that this rank integrates, with hats. If one end of
 /// an edge is in this rank's cells, this rank knows whether another triangle has the edge.
-/// Otherwise the rank that owns the first end tells.
+/// Otherwise the rank that owns the first end decides.
 /// @param edges  edges with one received triangle
 std::vector<TriangleEdge> EdgesOfHats(
   const RankLevels& levels, const std::vector<TriangleEdge>& edges)

@@ -1,5 +1,5 @@
-// One rank's part of a clipped surface: the pieces in and around its cells, wherever their
-// triangles come from.
+// One rank's part of a clipped surface: the pieces in and around its cells. Their triangles may
+// come from any rank.
 #ifndef GridFEM_RankClip_h
 #define GridFEM_RankClip_h
 

@@ -14,10 +14,10 @@ namespace gridfem
 {
 
 /// The distributed levels come first: the functions of RankHats::Numbering if there are hats, then
-/// those of RankSpace::Numberings. The shared levels follow. The mesh consists of the rank's own
-/// triangles. All functions are collective, except functions that return a number or a reference. A
-/// progress passed to them has to give the same answer on all ranks. Keeps references to the space
-/// and the hats.
+/// the functions of RankSpace::Numberings. The shared levels follow. The mesh consists of the
+/// rank's own triangles. All functions are collective, except functions that return a number or a
+/// reference. A progress passed to them has to give the same answer on all ranks. Keeps references
+/// to the space and the hats.
 class RankLevels : public SurfaceSpace
 {
 public:

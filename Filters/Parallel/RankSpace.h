@@ -33,8 +33,8 @@ public:
   int OwnerOfPoint(const Vec3& point) const;
 
   /// The patches of this rank's cells as a space of their own. Its levels are the distributed
-  /// levels and the first shared level. Functions of distributed levels are those of Numberings(),
-  /// so that matrices and integrals are this rank's parts of the sums over all ranks. Its mesh is
+  /// levels and the first shared level. Distributed levels have the functions of Numberings().
+  /// Matrices and integrals are therefore this rank's parts of the sums over all ranks. Its mesh is
   /// the mesh that the rank has received.
   const GridSpace& Own() const { return *own_; }
 
@@ -59,8 +59,8 @@ public:
   std::vector<double> SendToTriangles(const std::vector<double>& own) const;
 
   /// Collective. Replaces rows of this rank's own points by the sums over the points of all ranks
-  /// at the same place of one sheet. If a rank has several points there, they are meant to be
-  /// separate, and all stay as they are.
+  /// at the same place of one sheet. If a rank has several points at a place, they are separate on
+  /// purpose, and all stay as they are.
   void SumAtPoints(MultiVector& own) const;
 
 private:

@@ -117,9 +117,9 @@ public:
   ///@{
   /**
    * When on, coincident points count as one for connectivity. Meshes from STL files need this.
-   * Border points that coincide but for rounding count as one, too. Polygons are divided, for the
-   * computation only, at hanging nodes on their sides. Two points count as one up to 1e-6 of the
-   * longest side of the bounding box, and up to a thousandth of the shortest side of a triangle
+   * Border points that coincide except for rounding count as one, too. Polygons are divided, for
+   * the computation only, at hanging nodes on their sides. Two points count as one up to 1e-6 of
+   * the longest side of the bounding box, and up to a thousandth of the shortest side of a triangle
    * there. The output keeps the input's points either way. Default on.
    */
   vtkSetMacro(WeldCoincidentPoints, bool);

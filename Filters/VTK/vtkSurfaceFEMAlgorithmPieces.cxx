@@ -1,4 +1,4 @@
-// The runs of a filter whose surface consists of pieces: the blocks of composite data, or those of
+// The runs of a filter whose surface consists of pieces: blocks of composite data, or the pieces of
 // MPI ranks.
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -133,8 +133,8 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
-/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
-/// others.
+/// Starts all ranks from the beginning after a failure, because the data of one rank may not fit
+/// the data of the others.
 bool vtkSurfaceFEMAlgorithm::TryTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

@@ -15,7 +15,7 @@ namespace gridfem::testing
 /// The defects to make.
 struct Defects
 {
-  bool hasSeams = false;        // parts with points of their own, which coincide but for rounding
+  bool hasSeams = false; // parts with points of their own, which coincide except for rounding
   bool hasHangingNodes = false; // parts that are finer than their neighbors
   bool isTurned = false;        // some triangles are turned over
   bool hasCopies = false;       // some triangles are repeated, as they are or turned over

@@ -129,7 +129,7 @@ def is_same(one, other):
 
 
 def is_close(one, other):
-    """Whether two arrays are the same but for rounding and the end of an iteration."""
+    """Whether two arrays are the same except for rounding and the end of an iteration."""
     if one is None or other is None or one.shape != other.shape:
         return False
     size = numpy.nanmax(numpy.abs(other.astype(float)), initial=1.0)  # that of the surface at least

@@ -1,4 +1,4 @@
-"""Tests surfaces whose borders coincide but for rounding, or have hanging nodes, or faces that are there
+"""Tests surfaces whose borders coincide except for rounding, or have hanging nodes, or faces that are there
 twice, in pieces. All ranks together have the modes of one rank. Rank 0 gathers a surface with hanging
 nodes."""
 import unittest

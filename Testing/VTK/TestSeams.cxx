@@ -1,4 +1,4 @@
-// Tests surfaces with seams that coincide but for rounding, and with hanging nodes: the exact
+// Tests surfaces with seams that coincide except for rounding, and with hanging nodes: the exact
 // answers, points that stay, chains of filters, and no repeated steps.
 
 #include "FilterSupport.h"
@@ -26,7 +26,7 @@ using Algorithm = vtkSurfaceFEMAlgorithm;
 constexpr int Around = 60;
 constexpr int Along = 30;
 
-/// A tube of radius 1 and length 3. Its seam coincides but for rounding.
+/// A tube of radius 1 and length 3. Its seam coincides except for rounding.
 TriangleMesh Tube()
 {
   TriangleMesh mesh = FlatRectangle(Around, Along);

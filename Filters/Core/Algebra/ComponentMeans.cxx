@@ -37,8 +37,8 @@ MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight)
       });
     return sum;
   };
-  // Each range is at least as long as there are components, so the partial sums take less memory
-  // than x.
+  // Each range has at least as many rows as there are components, so the partial sums take less
+  // memory than x.
   const Id range = std::max(DefaultBlockSize, zero.rows());
   MultiVector mean =
     ParallelSum(x.rows() - ghosts, ThreadsFor(x.size(), threads_), zero, sumRange, range);

@@ -15,7 +15,7 @@ namespace
 constexpr Id MostSums = 16;
 constexpr Id RowsPerComponent = 64;
 
-/// Share of the mass below which a component may have no area but that of rounding.
+/// If a component has less than this share of the mass, its area may be only rounding.
 constexpr double Rounding = 1e-14;
 
 /// Squared extent of a component, in cells, that is a speck with such a share of the mass.
@@ -120,8 +120,8 @@ template<class Real>
 MultiVector Constants::Means(const ConstBlock<Real>& X) const
 {
   const Id components = static_cast<Id>(mass_.size());
-  // Each part has a sum for every component. There are only so many parts that they take less
-  // memory than a fraction of X.
+  // Each part has a sum for every component. The number of parts is small enough that they take
+  // only a fraction of the memory of X.
   const Id sums = std::clamp<Id>(X.rows() / (RowsPerComponent * components + 1), 1, MostSums);
   MultiVector mean = ParallelSum(
     X.rows(), threads_, MultiVector(MultiVector::Zero(components, X.cols())),

@@ -15,8 +15,8 @@ namespace
 
 constexpr Index None = -1;
 
-/// The origin of a point's distance: a place between two other points, at `share` of the way to the
-/// second.
+/// The origin of a point's distance is a place between two other points, at `share` of the way to
+/// the second point.
 struct Origin
 {
   Index first = None;

@@ -123,8 +123,8 @@ void AppendPart(const TriangleStrip& strip, Id first, Id last, TriangleStrip& to
   }
 }
 
-/// Moves the strip to the other side of each corner where the way around it is shorter. Corners
-/// that share triangles with one before wait for the next round.
+/// Moves the strip to the other side of each corner if the way around the corner is shorter.
+/// Corners that share triangles with one before wait for the next round.
 /// @return whether anything has moved
 bool MoveAroundCorners(
   const PathGraph& graph, const std::vector<StripBend>& bends, TriangleStrip& strip)
@@ -170,7 +170,7 @@ std::vector<PathPoint> PointsOfTightPath(
       return path.Points();
     }
     RemoveDetours(graph, moved);
-    if (!(StripPath(graph, moved).Length() < path.Length())) // but for rounding
+    if (!(StripPath(graph, moved).Length() < path.Length())) // except for rounding
     {
       return path.Points();
     }

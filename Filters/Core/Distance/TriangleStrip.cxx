@@ -213,7 +213,7 @@ std::vector<StripBend> StripPath::Bends() const
 }
 
 /// The share of the way from the left to the right end of an edge where the straight line between
-/// two corners crosses it. It is 0 or 1 at an end but for rounding.
+/// two corners crosses it. It is 0 or 1 at an end, except for rounding.
 double StripPath::CrossingOf(Id edge, Id from, Id to) const
 {
   constexpr double Rounding = 1e-12;

@@ -121,8 +121,8 @@ std::vector<char> EndsOfUnpaired(const TriangleMesh& mesh, int threads)
   return isEnd;
 }
 
-/// Returns the sides whose both ends are marked, as many times as there are triangles with them.
-/// Their ends are ids of points, in no order.
+/// Returns the sides with two marked ends, once for each triangle of a side. Their ends are ids of
+/// points, in no order.
 Array<NumberedEdge> SidesBetween(
   const std::vector<char>& isEnd, const TriangleMesh& mesh, int threads)
 {

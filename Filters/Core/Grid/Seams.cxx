@@ -61,7 +61,7 @@ SeamFinder::SeamFinder(const std::vector<OpenEdge>& open, const std::vector<doub
   }
 }
 
-/// Joins ends that coincide but for rounding, at the lowest of their places.
+/// Joins ends that coincide except for rounding, at the lowest of their places.
 void SeamFinder::JoinEnds(Seams& seams)
 {
   const SegmentTree tree(points_);

@@ -59,7 +59,7 @@ SegmentTree::SegmentTree(const std::vector<Vec3>& points) : SegmentTree(Segments
 {
 }
 
-/// Makes the box of these segments and halves them at the middle of its longest side.
+/// Makes the box of these segments, and divides the segments at the middle of its longest side.
 void SegmentTree::Build(Index begin, Index end)
 {
   const std::size_t own = boxes_.size();

@@ -27,8 +27,8 @@ int FunctionAround(int corner, int shift)
 
 /// Makes one set per connected component of a support. Two patches in a support that share an edge
 /// also share a corner in its interior. The trilinear functions of that corner are equal exactly if
-/// the patches are connected around it, and these cells lie in the support. So trilinear functions
-/// at the inner corners of a support say which of its patches are connected.
+/// the patches are connected around it, and these cells lie in the support. The trilinear functions
+/// at the inner corners of a support therefore determine which of its patches are connected.
 void UniteAroundCorners(const PatchLevel& level, int threads, UnionFind& slots)
 {
   const Groups places = GroupItems(level.dof.empty() ? nullptr : level.dof.front().data(),

@@ -85,7 +85,7 @@ MultiVector EvaluateAt(const GridFunctions& space, const BasicPatchLevel<Functio
 }
 
 /// Returns ∫ ∇u over a piece in grid units. On a piece, gradients of trilinear functions have
-/// degree two, and those of quadratic functions degree five.
+/// degree two, and gradients of quadratic functions have degree five.
 template<int Functions>
 void IntegrateGradient(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
   Id piece, const MultiVector& coefficients, Eigen::Ref<Eigen::RowVectorXd> sum)

@@ -19,8 +19,8 @@ constexpr double AxisFunctions[2][3][3] = {
   { { -1.0, -0.5, 0.0 }, { 1.0, 0.0, -1.0 }, { 0.0, 0.5, 1.0 } },
 };
 
-/// What is multiplied along an axis: the first factor is a slope if bit 0 is set, the second if bit
-/// 1 is set.
+/// The factors along an axis: the first factor is a slope if bit 0 is set, the second if bit 1 is
+/// set.
 enum PairKind : int
 {
   Values = 0,

@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// The projected matrices are computed anew after this many steps, because rounding errors add up.
+/// The projected matrices are computed again after this many steps, because rounding errors add up.
 constexpr int RefreshInterval = 8;
 
 /// Rows of the basis that are combined at a time. They stay in the cache.

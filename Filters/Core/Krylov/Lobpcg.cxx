@@ -20,7 +20,7 @@ constexpr Index MinimumRandomColumns = 4;
 constexpr Id KnownAtOnce = 1024;
 
 /// Steps after which the fallback takes over. Most problems need three to six steps. Surfaces with
-/// strands that nearly touch need fifteen, whatever the preconditioner's precision.
+/// strands that nearly touch need fifteen, in either precision of the preconditioner.
 constexpr int StepsBeforeFallback = 20;
 
 /// The state of the iteration. Its basis is [X, P, W].

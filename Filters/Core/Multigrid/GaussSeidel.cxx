@@ -27,8 +27,8 @@ private:
   BlockRanges ranges_;
 };
 
-/// An unknown belongs to the block of its first patch. Blocks of one color are not coupled, so
-/// neither are the unknowns of their patches.
+/// An unknown belongs to the block of its first patch. Blocks of one color are not coupled, so the
+/// unknowns of their patches are not coupled either.
 GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order) : unknowns_(A.rows)
 {
   CheckOrder(A, order);

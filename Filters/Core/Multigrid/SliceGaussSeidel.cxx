@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-/// Number of slabs, where there are slices enough: more than there are threads.
+/// Number of slabs, if there are enough slices. It is larger than the number of threads.
 constexpr Id MostSlabs = 64;
 
 class SliceGaussSeidel : public Smoother

@@ -181,8 +181,8 @@ std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
   return points;
 }
 
-/// Prepares functions and metric for the next step. moving_ stays empty if the functions cannot be
-/// made anew.
+/// Prepares functions and metric for the next step. moving_ stays empty if no new functions can be
+/// made.
 /// @return  number of singular samples
 Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
 {

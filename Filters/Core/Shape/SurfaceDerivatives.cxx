@@ -101,9 +101,9 @@ public:
   }
 
 private:
-  /// Finds the part of a slope across the boundary that the projection takes away: all of it there,
-  /// and about exp(-x / √δ) at a distance x. This part is itself the projection of a load on the
-  /// boundary.
+  /// Finds the part of a slope across the boundary that the projection removes. It is the whole
+  /// slope at the boundary, and a share of about exp(-x / √δ) at the distance x. This part is
+  /// itself the projection of a load on the boundary.
   void Measure(const MultiVector& onBoundary, L2Projection& projection, const Job& job)
   {
     const MultiVector layer = projection.Solve(
@@ -142,7 +142,7 @@ private:
   std::unique_ptr<L2Projection> projection_; // refers to it
 };
 
-/// Turns a field that is constant on triangles into one with these slopes and the same means.
+/// Turns a field that is constant on triangles into a field with these slopes and the same means.
 Field Tilted(const Field& f, const MultiVector& slopes, const TriangleMesh& mesh)
 {
   Field tilted{ FieldAssociation::Corners, MultiVector(3 * f.values.rows(), f.values.cols()) };

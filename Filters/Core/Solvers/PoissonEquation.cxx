@@ -59,7 +59,7 @@ void PoissonEquation::UpdateHierarchy(const Surface& surface, const PoissonReque
     });
 }
 
-/// Null where there is no solution to start from.
+/// Null if there is no solution to start from.
 /// @param resized  holds the start when the last solution has another number of columns
 const MultiVector* PoissonEquation::Start(
   const PoissonRequest& request, bool isSameSolver, MultiVector& resized) const

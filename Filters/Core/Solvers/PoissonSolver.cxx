@@ -66,7 +66,7 @@ void RequireInput(const Input& input, const Options& options)
   }
 }
 
-/// The key of everything that the load depends on besides the space.
+/// The key of everything that affects the load, except the space.
 StageKey KeyOfLoad(const Input& input, const Options& options)
 {
   StageKey key;

@@ -20,8 +20,8 @@ double Trace(const SparseMatrix& matrix)
   return std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
 }
 
-/// The mass of the coarsest level over the usual one, as its stiffness tells. A metric changes it
-/// by its smaller eigenvalue, about.
+/// The mass of the coarsest level over the usual mass, which follows from the stiffness. A metric
+/// changes it by its smaller eigenvalue, about.
 double RatioOfMasses(const SpaceLevels& space, int threads)
 {
   constexpr double SquaredSpacing = 6.0; // stiffness over mass, times the squared side of a cell

@@ -199,8 +199,8 @@ void NestedIteration<Real>::Compare(std::size_t level, const SpectralProblem<Rea
   coarser_ = {};
 }
 
-/// Completes the list. Values of a dense solve are all there are if they are fewer than the block
-/// has room for.
+/// Completes the list. If a dense solve has fewer values than the block has room for, there are no
+/// others.
 template<class Real>
 BlockReport NestedIteration<Real>::FinishList(
   const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress)

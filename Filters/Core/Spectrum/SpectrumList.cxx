@@ -48,7 +48,7 @@ ListReport MeasureAll(const SpectralProblem<Real>& problem, BlockOptions block, 
 
 } // namespace
 
-/// The pair behind the list tells whether a multiplet is cut. Its value can only fall, at most by
+/// The pair behind the list shows whether a multiplet is cut. Its value can only fall, at most by
 /// its measure. It therefore has to converge only if the answer is in doubt.
 template<class Real>
 ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, const ListEnd& end,

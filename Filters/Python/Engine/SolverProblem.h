@@ -36,7 +36,7 @@ private:
   SolveGiven<Solver> solveGiven_;
 };
 
-/// Makes the problem. Its options are the properties given, or else the defaults.
+/// Makes the problem. Its options are the given properties, or else the defaults.
 template<class Solver>
 std::unique_ptr<Problem> MakeSolverProblem(
   Properties& properties, const SurfaceOptions& defaults, SolveGiven<Solver> solveGiven)

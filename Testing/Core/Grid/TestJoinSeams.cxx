@@ -1,4 +1,4 @@
-// Seams that coincide but for rounding, and hanging nodes: what is joined, and what stays apart.
+// Seams that coincide except for rounding, and hanging nodes: what is joined, and what stays apart.
 #include "Grid/JoinSeams.h"
 
 #include "Base/Errors.h"

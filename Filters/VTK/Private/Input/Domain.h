@@ -1,4 +1,4 @@
-// Restricts a filter to a part of its input, without taking the rest away from its output.
+// Restricts a filter to a part of its input, but keeps the rest in its output.
 #ifndef GridFEM_Domain_h
 #define GridFEM_Domain_h
 
@@ -35,7 +35,7 @@ public:
   vtkInformationVector** Apply(
     vtkAlgorithm* filter, vtkInformationVector** inputs, int numberOfPorts);
 
-  /// Gives an output the ghost flags of the input in place of the marks.
+  /// Replaces the marks of an output by the ghost flags of the input.
   void PutBack(vtkPolyData* output) const;
 
   void Free();

@@ -1,4 +1,4 @@
-// Tells a changed mesh from one that has only been read again.
+// Distinguishes a changed mesh from a mesh that has only been read again.
 #ifndef GridFEM_MeshVersion_h
 #define GridFEM_MeshVersion_h
 

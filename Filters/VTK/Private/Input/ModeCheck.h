@@ -14,7 +14,7 @@ namespace gridfem
 ///
 /// Every mode is taken as linear on the triangles. Its square has to integrate to 1, and its
 /// Rayleigh quotient has to be its eigenvalue. A coarse mesh is not held against a mode. The
-/// integral by corners and the exact one lie on both sides of the true mode's integral. Their
+/// integral by corners and the exact integral lie on both sides of the true mode's integral. Their
 /// difference bounds the distance of the true mode. Modes with few points per wave are not checked.
 /// @param modes  rows are the points of the mesh
 /// Cost O(triangles · modes); the same for any number of threads.

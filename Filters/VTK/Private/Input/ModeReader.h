@@ -20,8 +20,7 @@ std::string ModeName(int mode);
 /// Whether the mesh has the field array Eigenvalues and the point array Mode000.
 bool CarriesModes(vtkPolyData* input);
 
-/// Removes the modes: the point arrays Mode, Mode000, ..., however many there are, and the field
-/// array Eigenvalues.
+/// Removes all modes: the point arrays Mode, Mode000, ... and the field array Eigenvalues.
 void RemoveModes(vtkPolyData* data);
 
 /// Adds the arrays of the modes.

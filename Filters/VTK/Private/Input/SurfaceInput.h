@@ -1,4 +1,4 @@
-// Provides the surface that a filter computes on, whatever data set it is given.
+// Provides the surface that a filter computes on, for any kind of data set.
 #ifndef GridFEM_SurfaceInput_h
 #define GridFEM_SurfaceInput_h
 

@@ -1,4 +1,4 @@
-// Tells a mesh that has only moved from one with other cells.
+// Distinguishes a mesh that has only moved from a mesh with other cells.
 #ifndef GridFEM_TrackedMesh_h
 #define GridFEM_TrackedMesh_h
 

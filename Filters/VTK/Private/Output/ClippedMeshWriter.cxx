@@ -55,8 +55,8 @@ void AddInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
-/// Returns the input's points, then the cut points. Points that joining seams moved stand where
-/// they were computed on, so that the clipped mesh is connected there when it is read again.
+/// Returns the input's points, then the cut points. Points of joined seams are at their common
+/// place, so that the clipped mesh is connected there when it is read again.
 template<class Real>
 void FillPoints(
   vtkPoints* input, const InputMesh& mesh, const ClippedMesh& clipped, int threads, Real* output)

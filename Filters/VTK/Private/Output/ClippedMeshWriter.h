@@ -43,7 +43,7 @@ void PassArrays(vtkPolyData* from, vtkPolyData* to);
 /// Returns the patch of every clipped triangle. The pieces are in order, each with its fan.
 std::vector<Id> PatchesOfTriangles(const GridFunctions& space, int threads);
 
-/// Returns points in the precision of the input's: single stays single, everything else becomes
+/// Returns points in the precision of the input: single stays single, everything else becomes
 /// double.
 int OutputPrecision(vtkPoints* input);
 

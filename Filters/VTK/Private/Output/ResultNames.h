@@ -11,7 +11,7 @@ namespace gridfem
 
 /// Puts a prefix before the names of all point and cell arrays that a filter has made. An array of
 /// the input that a result would replace stays, as `name_input`. Normals that moved with the points
-/// replace those of the input. Without effect on an output that has cells of its own.
+/// replace the normals of the input. An output with cells of its own stays as it is.
 void NameResults(vtkPolyData* input, const std::string& prefix, vtkPolyData* output);
 
 } // namespace gridfem

@@ -60,8 +60,8 @@ public:
   void PutArray(vtkAbstractArray* array);
   vtkSmartPointer<vtkAbstractArray> TakeArray();
 
-  /// Puts in the arrays that can travel and have so many tuples, and which of them are active. -1
-  /// means any number of tuples.
+  /// Puts in the arrays that can travel and have this number of tuples, and marks the active
+  /// arrays. -1 means any number of tuples.
   void PutArrays(vtkFieldData* arrays, vtkIdType tuples);
   /// Takes out arrays and adds them to the existing arrays.
   void TakeArrays(vtkFieldData* arrays);

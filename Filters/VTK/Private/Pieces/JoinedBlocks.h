@@ -67,7 +67,7 @@ public:
   /// The data objects for the outputs of the whole.
   vtkInformationVector* Results() { return results_; }
 
-  /// Tells the remaining blocks why there is no result.
+  /// Informs the remaining blocks why there is no result.
   void Fail(const std::exception_ptr& failure) { failure_ = failure; }
 
   /// Fills the outputs of one block. Throws Aborted or FailedElsewhere if the whole has failed.

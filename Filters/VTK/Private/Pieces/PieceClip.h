@@ -1,5 +1,5 @@
 // The clip of a surface that several MPI ranks hold. Each rank has the pieces in its own cells of
-// the octree, wherever their triangles were given.
+// the octree. Their triangles may come from any rank.
 #ifndef GridFEM_PieceClip_h
 #define GridFEM_PieceClip_h
 

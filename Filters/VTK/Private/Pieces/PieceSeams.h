@@ -9,7 +9,7 @@
 namespace gridfem
 {
 
-/// Gives points that coincide but for rounding the same coordinates, also in the copies of
+/// Gives points that coincide except for rounding the same coordinates, also in the copies of
 /// triangles. Collective. Throws NeedsWholeSurface if there are hanging nodes.
 void JoinSeamsOfRanks(const Communicator& ranks, int threads, InputMesh& mesh, InputMesh& copies);
 

@@ -148,7 +148,7 @@ std::vector<double> PieceSurface::NumbersOfBasis(vtkPolyData* basisData) const
   return told;
 }
 
-/// Requires that the functions are those of the basis, as far as the numbers tell.
+/// Requires that the functions belong to the basis, as far as their numbers show.
 void PieceSurface::RequireBasis(const std::vector<double>& told) const
 {
   const Grid& grid = this->GetGrid();
@@ -289,8 +289,8 @@ InputArray PieceSurface::FindOn(const InputMesh& mesh, int index, const std::str
   return array;
 }
 
-/// Tells the other ranks of the array that ranks with polygons have found. They get an array of
-/// zeros. Throws if the ranks' arrays do not fit each other.
+/// Informs the other ranks about the array that ranks with polygons have found. They get an array
+/// of zeros. Throws if the ranks' arrays do not fit each other.
 void PieceSurface::AgreeOnArray(int index, InputArray& array)
 {
   Shape own;

@@ -53,7 +53,7 @@ public:
   /// Notes the threads of this rank as those in use. Collective.
   void NoteThreads();
 
-  /// Reads the piece in place of the current one.
+  /// Reads the piece, which replaces the current piece.
   /// @param joinsSeams  joins the seams of the surface of all ranks. Pieces of a clip that are read
   ///   with their cells have none. Throws NeedsWholeSurface if there are hanging nodes.
   void ReadAnew(bool joinsSeams) { triangles_ = this->Read(joinsSeams); }

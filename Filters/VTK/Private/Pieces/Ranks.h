@@ -14,7 +14,7 @@ class vtkMultiProcessController;
 namespace gridfem
 {
 
-/// Thrown on the ranks besides the one that reports the error. Prints nothing itself.
+/// Thrown on all ranks except the rank that reports the error. Prints nothing itself.
 struct FailedElsewhere : std::runtime_error
 {
   FailedElsewhere() : std::runtime_error("failed on another rank") {}
@@ -23,7 +23,7 @@ struct FailedElsewhere : std::runtime_error
 using Bytes = std::vector<char>;
 
 /// The ranks of VTK's global controller. Every function but the first five is collective: all ranks
-/// have to call it, in the same order. Otherwise they wait for each other forever.
+/// have to call it, in the same order. Otherwise the ranks wait for each other forever.
 class Ranks
 {
 public:

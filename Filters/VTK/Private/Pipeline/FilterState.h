@@ -1,4 +1,5 @@
-// What a filter keeps between runs: its options, stages, progress, and the surface in use.
+// The state that a filter keeps between runs: its options, stages, progress, and the surface in
+// use.
 #ifndef GridFEM_FilterState_h
 #define GridFEM_FilterState_h
 

@@ -43,8 +43,9 @@ void AddClipArrays(StageKey& key, vtkPolyData* data);
 /// Adds the arrays of the clip and of the basis.
 void AddBasisArrays(StageKey& key, vtkPolyData* data);
 
-/// What filters need of a surface besides what solvers need. All functions but Triangles, Given,
-/// ConstraintsOf, UsedDepth and Free are collective on a shared surface.
+/// Functions of a surface that filters need, in addition to the functions that solvers need. All
+/// functions but Triangles, Given, ConstraintsOf, UsedDepth and Free are collective on a shared
+/// surface.
 class InputSurface : public virtual Surface
 {
 public:
@@ -91,10 +92,10 @@ public:
   /// Returns means on the cells of this process of values on its triangles.
   virtual MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const = 0;
 
-  /// Returns triangles together with those that are copies of another rank's.
+  /// Returns all triangles, including copies of triangles of other ranks.
   virtual InputMesh WithCopies(const InputMesh& mesh) const { return mesh; }
 
-  /// Replaces the numbers by those of the first rank that has any.
+  /// Replaces the numbers by the numbers of the first rank that has any.
   virtual void Agree(std::vector<double>& /*numbers*/) const {}
 
   /// How many triangles of the surface were left out, because others have the same corners.

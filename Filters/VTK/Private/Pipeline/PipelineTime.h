@@ -26,10 +26,10 @@ public:
   /// For a filter that passes on its input's times: notes the time that goes to its inputs.
   void Follow(vtkInformationVector* input);
 
-  /// For a filter with time steps of its own: asks all inputs for the same time, whatever time the
-  /// outputs are asked for. Mode 3 belongs to the surface and not to the input's time 3. The time
-  /// is the last noted time, or else the time of the first input's data, or else its first step. It
-  /// stays until the first input is another one.
+  /// For a filter with time steps of its own: requests the same time from all inputs, for any time
+  /// that is requested from the outputs. Mode 3 belongs to the surface and not to the input's time
+  /// 3. The time is the last noted time, or else the time of the first input's data, or else its
+  /// first step. It stays until the first input changes.
   /// @param ports  number of `inputs`, one vector for each port
   void Fix(vtkInformationVector** inputs, int ports);
 

@@ -51,7 +51,7 @@ public:
   /// The number of the input's mesh (MeshVersion).
   std::int64_t MeshNumber();
 
-  /// Reads the input's mesh in place of the current one, and frees the functions. Throws
+  /// Reads the input's mesh, which replaces the current mesh, and frees the functions. Throws
   /// InvalidInput unless it is a surface.
   /// @param joinsSeams  as ReadInputMesh. A clipped mesh that is read with its cells has no seams.
   void ReadAnew(bool joinsSeams, const Progress& progress);
