@@ -1,6 +1,6 @@
 // The main job: a mesh goes in; its octree, basis, Poisson solution, Laplace spectrum and five
-// steps of its mean-curvature flow come out. Examples/run.sh builds it, runs it and renders what it
-// writes.
+// steps of its mean-curvature flow come out. Examples/run.sh builds it, runs it and renders its
+// output.
 //
 // The Poisson solution removes noise from a striped (or colored) surface. It minimizes ∫ w (u - f)²
 // + |∇u|², so u stays near the noisy f over lengths above 1 / √w and is smooth below.

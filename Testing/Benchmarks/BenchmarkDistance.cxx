@@ -316,7 +316,7 @@ struct HeldTimes
   double misfit = 0.0;
 };
 
-/// λ = 0 but for the start: as smooth as it can be, with values held at every so many-th point.
+/// λ = 0 except for the start: the smoothest function with values held at evenly chosen points.
 HeldTimes MeasureHeld(const TriangleMesh& mesh, int depth, int count)
 {
   GridSpaceOptions options;

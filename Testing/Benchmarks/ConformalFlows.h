@@ -44,7 +44,7 @@ std::unique_ptr<MovingSystem> MakeHatSystem(std::shared_ptr<const TriangleMesh> 
 std::unique_ptr<MovingSystem> MakeSpaceSystem(
   std::shared_ptr<const FiniteElementSpace> space, int threads);
 
-/// A flow that begins anew for each length of its steps.
+/// A flow that starts again for each length of its steps.
 class ConformalFlow
 {
 public:

@@ -40,7 +40,7 @@ struct GridProblem
   double Error(const MultiVector& x) const;
 };
 
-/// Triangles to ready-to-solve hierarchy: what "set-up" means in every table.
+/// From the triangles to a hierarchy that is ready to solve. Every table calls this "set-up".
 GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads,
   FunctionSupport support = FunctionSupport::ConnectivityAware,
   double screeningWeight = ScreeningWeight, Index coarsestSize = 256);

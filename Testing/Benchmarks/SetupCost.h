@@ -46,9 +46,9 @@ struct SetupCost
   double Peak() const; // the largest of the stages
 };
 
-/// Runs Clip, BuildFunctionSpace, BuildLevelOperators and BuildMultigrid, default options but for
-/// these. The memory is right only right after ReleaseFreeMemory, the time faster without: memory
-/// that the system has to hand out anew took 0.4 of 2.5 s.
+/// Runs Clip, BuildFunctionSpace, BuildLevelOperators and BuildMultigrid with default options,
+/// except for these. The memory is correct only directly after ReleaseFreeMemory. The time is
+/// shorter without this call: memory that the system has to provide again took 0.4 of 2.5 s.
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads);
 
 } // namespace gridfem::benchmarks

@@ -1,4 +1,4 @@
-// Solvers on surfaces with defects. The results must be those of the clean surface.
+// Solvers on surfaces with defects. The results must equal the results of the clean surface.
 #include "Defects.h"
 #include "RandomProblem.h"
 
@@ -119,7 +119,7 @@ Solved SolveSpectrum(const Given& given, const Setting& setting)
   return { eigenvalues, result.spectrum.converged };
 }
 
-/// Mean and Gaussian curvature without a unit. The sign is that of the side that triangles face. If
+/// Mean and Gaussian curvature without a unit. The side that triangles face determines the sign. If
 /// all are turned, it is the other side.
 Solved SolveCurvatures(const Given& given, const Setting& setting)
 {
@@ -192,7 +192,7 @@ struct Problem
   double size;     // differences are relative to the values, or to this size if it is larger
 };
 
-/// The rounding of distances is that of the directions of heat, which are integrated with other
+/// The directions of heat determine the rounding of distances. They are integrated with other
 /// errors if a triangle begins at another corner.
 constexpr Problem Problems[] = { { "Poisson", SolvePoisson, true, 1e-8, 1.0 },
   { "heat", SolveHeat, true, 1e-8, 1.0 }, { "distance", SolveDistance, true, 1e-2, 0.0 },
@@ -227,7 +227,7 @@ void CompareWithClean(Choice& choice, const Defects& defects, Outcome& outcome)
 {
   const DefectivePair pair = MakeDefectivePair(choice, defects);
   Setting setting = RandomSetting(choice);
-  // Curvatures are those of the triangles at a point, so refined triangles have others.
+  // Curvatures depend on the triangles at a point, so refined triangles have other curvatures.
   const auto problems = static_cast<Id>(std::size(Problems)) - (defects.hasHangingNodes ? 1 : 0);
   const Problem& problem = Problems[choice.Integer(0, problems - 1)];
   const Id source = choice.Integer(0, static_cast<Id>(pair.clean.points.size()) - 1);

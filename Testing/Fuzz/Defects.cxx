@@ -114,7 +114,7 @@ Vec3 CentroidOf(const TriangleMesh& mesh, const Corners& corner)
   return (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
 }
 
-/// Tells the triangles on one side of a random plane through the middle of the mesh.
+/// Marks the triangles on one side of a random plane through the middle of the mesh.
 std::vector<char> OnOneSide(Choice& choice, const TriangleMesh& mesh)
 {
   const Bounds bounds = BoundsOf(mesh.points, UsedPoints(mesh));
@@ -427,8 +427,8 @@ DefectivePair MakeDefectivePair(Choice& choice, const Defects& defects)
   const Shape& shape = Shapes[choice.Integer(0, std::size(Shapes) - 1)];
   pair.description = shape.name;
   TriangleMesh mesh = shape.make(choice);
-  // A flat part in a face of the grid would be in two layers of cells once its seams are apart, and
-  // those have other functions. The surface is therefore turned.
+  // If a flat part lies in a face of the grid, open seams would put it into two layers of cells,
+  // which have other functions. The surface is therefore turned.
   pair.isAligned = !defects.hasSeams && choice.OneIn(2);
   if (!pair.isAligned)
   {

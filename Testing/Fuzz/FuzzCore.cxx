@@ -6,7 +6,7 @@
 //     FuzzCore                    runs the seeds of all cases found so far
 //
 // With "defects" as first argument, FuzzCore runs the series of surfaces with defects instead.
-// Their results must be those of the clean surface.
+// Their results must equal the results of the clean surface.
 //
 // Returns 1 if something is broken. The current seed is the last output on the error stream, so
 // that a crash shows it.

@@ -15,7 +15,7 @@ Outcome RunCase(std::uint64_t seed);
 /// Runs a case of another series: a solver on a surface with defects and on the clean surface.
 Outcome RunDefectCase(std::uint64_t seed);
 
-///@{ Each adds violated requirements to the outcome, and may throw whatever Core throws.
+///@{ Each adds violated requirements to the outcome, and may throw any exception of Core.
 using RandomProblem = void (*)(Choice& choice, RandomSurface& surface, Outcome& outcome);
 
 // Meshes, levels and matrices.

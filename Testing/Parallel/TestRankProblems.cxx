@@ -17,8 +17,8 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Points without another point in the same place. Elsewhere, nothing tells that points of several
-/// ranks are one.
+/// Points without another point in the same place. Elsewhere, ranks cannot know that several of
+/// their points are one.
 std::vector<char> AlonePoints(const TriangleMesh& mesh)
 {
   const Array<Index> first = WeldCoincidentPoints(mesh.points);

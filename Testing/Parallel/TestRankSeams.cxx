@@ -1,4 +1,4 @@
-// Ranks find the seams of the whole surface, whatever pieces they have.
+// Ranks find the seams of the whole surface, for any distribution of its pieces.
 #include "Parallel/RankSeams.h"
 
 #include "Grid/JoinSeams.h"

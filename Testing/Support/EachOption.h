@@ -13,7 +13,7 @@
 namespace gridfem::testing
 {
 
-/// Converts to whatever a field of an aggregate is.
+/// Converts to the type of any field of an aggregate.
 struct AnyField
 {
   template<class Value>

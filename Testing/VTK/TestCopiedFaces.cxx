@@ -1,4 +1,4 @@
-// Tests that faces which are there twice count once, and that the output tells how many there were.
+// Tests that repeated faces count once, and that the output has their number.
 
 #include "AllFilters.h"
 

@@ -1,5 +1,5 @@
-// Tests the DomainArray of every filter: the results are those of the surface with the rest cut
-// away, and the output keeps all points, cells and arrays of the input.
+// Tests the DomainArray of every filter. The results equal the results on the surface with the rest
+// cut away, and the output keeps all points, cells and arrays of the input.
 
 #include "AllFilters.h"
 

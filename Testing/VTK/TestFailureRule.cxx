@@ -764,7 +764,7 @@ Results ResultsOf(vtkPolyData* output, vtkPolyData* input, double scale, const V
   return results;
 }
 
-/// Returns what a clip has whatever cut points it makes.
+/// Returns the properties of a clip that do not depend on its cut points.
 Results FactsOf(vtkPolyData* clipped, double scale)
 {
   double area = 0.0;

@@ -95,7 +95,7 @@ TEST_F(HatPoisson, TheGridIsNoFinerThanTheMesh)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 7);
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
   filter->SetFunctionSpace(Poisson::HatFunctions);
-  // The same depth replaces a given basis, whatever that basis welds.
+  // The same depth replaces a given basis, whether or not the basis welds points.
   vtkNew<vtkConnectivityAwareBasis> basis;
   basis->SetInputData(input);
   basis->SetDepth(5);
@@ -197,7 +197,7 @@ TEST_F(HatPoisson, TakesABasisOrTheClippedMesh)
   basis->SetInputData(input);
   filter->SetBasisConnection(basis->GetOutputPort());
   EXPECT_LT(Difference(this->Solution(), expected), 1e-8);
-  // On the output of the basis filter the mesh is the clipped one, and so are its hats.
+  // On the output of the basis filter, the mesh and its hats are clipped.
   filter->SetInputConnection(1, nullptr);
   filter->SetInputConnection(0, basis->GetOutputPort());
   const std::vector<double> clipped = this->Solution();

@@ -76,7 +76,7 @@ TEST(HeatDiffusionFilter, DecaysInTimeStepsAsTheSphereSays)
   EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
 }
 
-/// The heat of a point has the sign of what was put there, from the first step on.
+/// The heat of a point has the sign of the given heat, from the first step on.
 TEST(HeatDiffusionFilter, TheHeatOfAPointIsPositiveAndLargeWhereItWasPut)
 {
   for (const int space : { 0, 1 })
@@ -102,7 +102,7 @@ TEST(HeatDiffusionFilter, TheHeatOfAPointIsPositiveAndLargeWhereItWasPut)
   }
 }
 
-/// Widths are in the unit of the points, whatever the unit of the time.
+/// Widths are in the unit of the points, for any unit of the time.
 TEST(HeatDiffusionFilter, TakesWidthsInTheUnitOfThePoints)
 {
   const double time = 0.3;

@@ -1,4 +1,4 @@
-// Tests the names of results: no array of the input is lost, and a prefix tells the results of
+// Tests the names of results: no array of the input is lost, and a prefix keeps the results of
 // several filters apart.
 
 #include "AllFilters.h"

@@ -1,5 +1,5 @@
-// Tests that the properties of the solver change the way to the result, not the result. Each
-// repeats only the stages that it belongs to.
+// Tests that the properties of the solver change how the result is computed, but not the result.
+// Each repeats only the stages that it belongs to.
 
 #include "FilterSupport.h"
 

@@ -74,8 +74,7 @@ double LargestBend(const PathGraph& graph, const SurfacePath& path)
   return bend;
 }
 
-/// What holds for every path: it joins its ends, lies in triangles that meet, and cannot be pulled
-/// tighter.
+/// Checks every path: it joins its ends, lies in triangles that meet, and cannot be pulled tighter.
 void RequireTight(const PathGraph& graph, const SurfacePath& path, Id from, Id to)
 {
   const TriangleMesh& mesh = graph.Mesh();
@@ -373,7 +372,7 @@ TEST(SurfacePath, ThroughASinglePoint)
   EXPECT_NEAR(path.length, std::hypot(1.0, 2.0 / 3) + std::hypot(1.0, 1.0 / 3), 1e-12);
 }
 
-/// A search that may not have the windows it needs says so. Its ways are still paths.
+/// A search that needs more windows than allowed reports it. Its ways are still paths.
 TEST(SurfacePath, ASearchThatGivesUp)
 {
   const TriangleMesh torus = Torus(40, 16, 2.0, 0.7);
@@ -383,7 +382,8 @@ TEST(SurfacePath, ASearchThatGivesUp)
   EXPECT_GE(paths.windows.LengthTo(300), shortest * (1.0 - 1e-12));
 }
 
-/// On scans: between the straight line and the way through corners and midpoints, tight everywhere.
+/// On scans, the length is between the straight line and the way through corners and midpoints, and
+/// the path is tight everywhere.
 TEST(SurfacePath, OnRealMeshes)
 {
   for (const char* name : { "rocker_arm.ply", "elephant_106_holes_4k.ply", "small/prim.off" })

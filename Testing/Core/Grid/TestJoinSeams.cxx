@@ -1,4 +1,5 @@
-// Seams that coincide except for rounding, and hanging nodes: what is joined, and what stays apart.
+// Seams that coincide except for rounding, and hanging nodes: tests which points are joined and
+// which stay apart.
 #include "Grid/JoinSeams.h"
 
 #include "Base/Errors.h"
@@ -181,7 +182,7 @@ TEST(JoinSeams, ClosesRotatedSectorsAndMirroredHalves)
 
 TEST(JoinSeams, KeepsApartWhatIsTenTimesTheToleranceApart)
 {
-  // With 10 squares per side the tolerance is that of the box. With 600 it is that of the edges.
+  // With 10 squares per side, the box determines the tolerance. With 600 it is that of the edges.
   for (const int n : { 10, 600 })
   {
     const double tolerance = std::min(2.0 * SeamTolerance, SeamShare / n);

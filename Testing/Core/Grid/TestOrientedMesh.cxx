@@ -1,5 +1,5 @@
-// Tests that triangles are made to face alike: random turns are undone, copies are left out, and a
-// mesh that is oriented already stays as it is.
+// Tests that triangles are made to face the same way. Random turns are undone, copies are left out,
+// and a mesh that is already oriented stays as it is.
 #include "Grid/OrientedMesh.h"
 
 #include "Meshes.h"

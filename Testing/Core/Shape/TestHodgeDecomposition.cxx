@@ -206,7 +206,7 @@ TEST_P(Hodge, LeavesTheTwoHarmonicFieldsOfATorus)
   ExpectOrthogonal(mesh, parts, this->Orthogonality());
 }
 
-/// A ring: the flow through it is a gradient, the flow around the hole is neither part, and an eddy
+/// On a ring, the flow through it is a gradient, and the flow around the hole is harmonic. An eddy
 /// that is 0 at the boundary is a rotation.
 TEST_P(Hodge, KeepsWhatGoesAroundAHole)
 {

@@ -1,5 +1,5 @@
-// The solver against exact decay and the exact kernel, and its steps: which of them a change makes
-// again.
+// Compares the solver with exact decay and the exact kernel. Tests which of its steps a change
+// repeats.
 #include "EachOption.h"
 #include "Meshes.h"
 #include "Solvers/DiffusionSolver.h"

@@ -199,7 +199,7 @@ TriangleMesh Crumb()
 
 } // namespace
 
-/// The first point is the one with the least id, whatever the order of the triangles.
+/// The first point is the point with the least id, for any order of the triangles.
 TEST(DistanceSolver, StartsAtTheFirstPointWhereNoSourceIsChosen)
 {
   TriangleMesh mesh = *Sphere;

@@ -56,8 +56,8 @@ TEST(FarthestPointsSolver, OnASphere)
   EXPECT_NEAR(Angle(result.points[2], result.points[3]), Pi, 3 * Cell);
 }
 
-/// Points are no nearer to each other than the radius, and the nearest one is as near as the
-/// distance says.
+/// Points are no nearer to each other than the radius, and the distance is the distance to the
+/// nearest point.
 TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
 {
   const FarthestPointsSolver::Result result =

@@ -183,7 +183,7 @@ TEST_P(InterpolationRange, DoesNotDependOnThreads)
     Interpolate(mesh, known, GetParam(), 4, 3).atPoints);
 }
 
-/// Contradictory values at one place are met in the mean, and the misfit says so.
+/// For contradictory values at one place the mean counts, and the misfit shows it.
 TEST_P(InterpolationRange, SaysWhatCannotBeMet)
 {
   const TriangleMesh mesh = GeodesicSphere(8);
@@ -195,7 +195,7 @@ TEST_P(InterpolationRange, SaysWhatCannotBeMet)
 }
 
 /// A harmonic function on flat or rolled surfaces, from its values at the points of the boundary.
-/// Cells of depth 3 are larger than the edges, those of depth 7 smaller.
+/// Cells of depth 3 are larger than the edges, and cells of depth 7 are smaller.
 TEST(InterpolationRate, IsNearTwoForAWholeBoundary)
 {
   const auto harmonic = [](double x, double y)

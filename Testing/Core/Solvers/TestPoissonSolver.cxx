@@ -252,7 +252,7 @@ TEST(PoissonSolver, RefusesNaNWhereItCounts)
   OnTheSurface(result.atPoints, *mesh);
 }
 
-/// A weight may have any size if all are alike. Far larger weights than the others are refused,
+/// Weights may have any size if all are equal. Far larger weights than the others are refused,
 /// because the rest of the solution would be lost.
 TEST(PoissonSolver, HugeWeightsAreRightOrRefused)
 {

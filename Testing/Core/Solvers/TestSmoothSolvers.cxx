@@ -1,4 +1,4 @@
-// Tests solvers on the quadratic functions of a grid, and which of them refuse these functions.
+// Tests solvers on the quadratic functions of a grid, and the solvers that refuse these functions.
 #include "Base/Errors.h"
 #include "Distance/GeodesicDistance.h"
 #include "Largest.h"

@@ -177,7 +177,7 @@ TEST(ZeroBoundaries, AClosedSurfaceIsToldAndUnchanged)
   EXPECT_NE(found.warnings[0].find("no boundary"), std::string::npos);
 }
 
-/// Heat that leaves at the boundary: late heat kernels are those of the first mode.
+/// Heat that leaves at the boundary: late heat kernels consist of the first mode alone.
 TEST(ZeroBoundaries, SignaturesVanishOnTheBoundary)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(FlatRectangle(32, 32));

@@ -315,7 +315,8 @@ TEST_P(EverySpace, TheEmbeddingOfTheMeshHasItsPoints)
         on.space->Origin() + on.space->UnitLength() * points.row(static_cast<Id>(k)).transpose();
       ASSERT_TRUE(!reached[k] || (position - mesh.points[k]).norm() < 1e-12 * 10.0);
     }
-    // Quadratic functions have their places in the middle of cells, also of those around the grid.
+    // Quadratic functions have their places in the middle of cells, including cells around the
+    // grid.
     EXPECT_LE(embedding.maxCoeff<Eigen::PropagateNaN>(), on.space->Extent() + 0.5 + 1e-9);
     EXPECT_GE(embedding.minCoeff(), -0.5 - 1e-9);
   }

@@ -182,7 +182,7 @@ TEST_F(ModeSums, ScalesWithTheMesh)
 
 TEST_F(ModeSums, ComponentsWithoutASourceAreInfinitelyFar)
 {
-  // The second half of the points is a component of its own, with two constants in place of one.
+  // The second half of the points is a component of its own, with two constants instead of one.
   const Id half = modes.values.rows() / 2;
   MultiVector values(modes.values.rows(), 10);
   values.rightCols(9) = modes.values;

@@ -34,7 +34,8 @@ TEST(Spectrum, EstimatedErrorsAreTheTrueOnesWithinAFactorOfTwo)
   }
 }
 
-/// Differences that fall by four are errors of second order, those that fall by two of first order.
+/// Differences that fall by four are errors of second order. Differences that fall by two are
+/// errors of first order.
 TEST(Spectrum, ErrorsFollowFromTheRateOfThreeLevels)
 {
   const double none = std::nan("");
@@ -93,7 +94,7 @@ TEST(Spectrum, ModesAreMatchedByTheirFunctions)
 
 /// A plate of two faces at a distance far below a cell, joined at the rim. Modes that are opposite
 /// on the faces vanish at the rim, and their errors fall by two to three per level. They are the
-/// modes of a rectangle that is held at its border, and the others those of a free one.
+/// modes of a rectangle that is held at its border. The others are the modes of a free rectangle.
 TEST(Spectrum, ErrorsOfAThinPlateAreFoundOrNotTrusted)
 {
   constexpr int Cuts = 24;

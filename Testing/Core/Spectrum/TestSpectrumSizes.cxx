@@ -40,8 +40,8 @@ std::shared_ptr<const TriangleMetric> Scaling(const TriangleMesh& mesh, double s
 
 } // namespace
 
-/// A map that scales by s divides eigenvalues by s² and modes by s. The range is that of the
-/// metrics which MetricOfTensors accepts.
+/// A map that scales by s divides eigenvalues by s² and modes by s. MetricOfTensors accepts metrics
+/// in this range.
 TEST(SpectrumSizes, AMetricOfAnyScaleHasTheEigenvaluesOfTheScaledSurface)
 {
   const TriangleMesh mesh = Square();
