@@ -1,5 +1,5 @@
 """A ParaView state: how a surface bends. The left view has the mean curvature, blue in hollows and
-red on bulges. The right view has the shape index, which tells a valley from a ridge of any size.
+red on bulges. The right view has the shape index, which distinguishes valleys from ridges of any size.
 
 Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 

@@ -1,6 +1,6 @@
 """A ParaView state: signatures of the points of a surface, computed from its modes. The left view
-has the heat kernel signature, the same at points that look alike, the right one the biharmonic
-distance from a point.
+has the heat kernel signature, which is the same at points that look alike. The right view has the
+biharmonic distance from a point.
 
 Load the plugin in ParaView and choose File > Load State. Or show a mesh of your own:
 

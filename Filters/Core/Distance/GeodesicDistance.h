@@ -71,11 +71,11 @@ public:
 
 /// Distance by the heat method: (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>.
 /// Then φ is shifted so that its mean over the sources of each component is 0. Everything but the
-/// sources is kept, so other sources cost only the solves.
-/// Heat flows on the nested levels of a space that has such levels. Hats above them may be slivers,
-/// or much farther from each other than t allows. Distances are exact to the size of a few
-/// functions where a single front arrives. Errors are sqrt(t) / 2 to sqrt(t) where fronts meet, and
-/// within sqrt(t) of boundaries.
+/// sources is kept, so a change of the sources repeats only the solves. Heat flows on the nested
+/// levels of a space that has such levels. Hats above them may be slivers, or much farther from
+/// each other than t allows. Distances are exact to the size of a few functions where a single
+/// front arrives. Errors are sqrt(t) / 2 to sqrt(t) where fronts meet, and within sqrt(t) of
+/// boundaries.
 class GeodesicDistance : public DistanceMethod
 {
 public:

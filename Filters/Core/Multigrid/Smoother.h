@@ -123,12 +123,12 @@ std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOr
 std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0);
 
-/// MakePatchSmoother's sweep in a half to a third of the time. Rows are stencils of the grid, and
-/// everything is stored and computed in single precision (Smoother::IsSingle). Patches with pivots
-/// below 1e-6 are relaxed once more in double precision. Flat faces almost parallel to a plane of
-/// the grid have such patches.
-/// Returns null if more than a tenth of the patches have such pivots. The result is also null if
-/// patches are not the eight corners of a cell, or if many of them share a cell. See StencilBlocks.
+/// Makes a smoother with the same sweep as MakePatchSmoother's, in a half to a third of the time.
+/// Rows are stencils of the grid, and everything is stored and computed in single precision
+/// (Smoother::IsSingle). Patches with pivots below 1e-6 are relaxed once more in double precision.
+/// Flat faces almost parallel to a plane of the grid have such patches. Returns null if more than a
+/// tenth of the patches have such pivots. The result is also null if patches are not the eight
+/// corners of a cell, or if many of them share a cell. See StencilBlocks.
 /// @param patternFits  if not null: false if the result is null for any values of the matrix
 std::unique_ptr<Smoother> MakeStencilSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0, bool* patternFits = nullptr);

@@ -37,7 +37,8 @@ struct HodgeDecomposition
 
 /// Splits v = ∇u + n x ∇w + h into mutually orthogonal parts.
 ///   ∫ <∇u, ∇b> = ∫ <v, ∇b> for all b,
-///   ∫ <n x ∇w, n x ∇b> = ∫ <v, n x ∇b> for all b that are 0 where the surface ends, as w is.
+///   ∫ <n x ∇w, n x ∇b> = ∫ <v, n x ∇b> for all b that are 0 where the surface ends; w is 0 there,
+///   too.
 /// So h has no sources, no eddies, and does not cross a boundary. It is 0 on a disk and on a
 /// sphere. Other surfaces have one such field for each hole except the first, and two for each
 /// handle.

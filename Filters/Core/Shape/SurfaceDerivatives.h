@@ -1,4 +1,4 @@
-// The surface gradient and the Laplacian of a given field, in the weak sense of a space.
+// Computes the surface gradient and the Laplacian of a given field, in the weak sense of a space.
 #ifndef GridFEM_SurfaceDerivatives_h
 #define GridFEM_SurfaceDerivatives_h
 

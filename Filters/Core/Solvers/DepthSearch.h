@@ -12,8 +12,8 @@
 namespace gridfem
 {
 
-/// Search for an equation on the grid. Solve at Depth() and pass the error to Judge, until
-/// IsFound().
+/// Searches the depth for an equation on the grid. Solve at Depth() and pass the error to Judge,
+/// until IsFound().
 class DepthSearch
 {
 public:

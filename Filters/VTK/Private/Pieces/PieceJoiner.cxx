@@ -19,7 +19,7 @@ namespace
 {
 
 /// The largest number of points at one place that are compared with another. More are no mesh and
-/// would take quadratic time. They stay apart then, as on one rank.
+/// would take quadratic time. In this case they stay apart, as on one rank.
 constexpr int MostCompared = 64;
 
 /// Reads the id exactly. A double would lose digits beyond 2^53.
