@@ -6,9 +6,11 @@
 #include "Cholmod.h"
 #include "Integrals/Evaluation.h"
 #include "Measure.h"
+#include "Solvers/SpectrumSolver.h"
 #include "Spectrum/Spectrum.h"
 
 #include <functional>
+#include <memory>
 
 namespace gridfem::benchmarks
 {
@@ -86,6 +88,30 @@ SpectrumJob GridSpectrum(
       {
         job.eigenvalues.push_back(value / (spacing * spacing));
       }
+      return job;
+    });
+}
+
+SpectrumJob SolverSpectrum(
+  const TriangleMesh& mesh, FunctionKind kind, int depth, int modes, int threads)
+{
+  return InOwnProcessWithPeak(
+    [&]
+    {
+      const MemoryReuse reuse; // as around every filter
+      SurfaceOptions surface = SpectrumSolver::SurfaceDefaults();
+      surface.space.depth = depth;
+      surface.space.threads = threads;
+      surface.choice.kind = kind;
+      SpectrumSolver::Options options;
+      options.numberOfModes = modes;
+      const SpectrumSolver::Result result =
+        SpectrumSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, options, surface);
+      SpectrumJob job;
+      job.unknowns = static_cast<double>(result.spectrum.vectors.rows());
+      job.steps = result.spectrum.iterations;
+      job.converged = result.spectrum.numberOfConverged;
+      job.eigenvalues = result.eigenvalues;
       return job;
     });
 }

@@ -5,6 +5,7 @@
 
 #include "Grid/GridFunctions.h"
 #include "ShiftInvert.h"
+#include "Spaces/FunctionKind.h"
 
 #include <cmath>
 #include <vector>
@@ -26,6 +27,10 @@ struct SpectrumJob
 
 SpectrumJob GridSpectrum(const TriangleMesh& mesh, int depth, int modes, int threads,
   FunctionSupport support = FunctionSupport::ConnectivityAware);
+
+/// The same by the solver of Laplace Spectrum, with any kind of functions.
+SpectrumJob SolverSpectrum(
+  const TriangleMesh& mesh, FunctionKind kind, int depth, int modes, int threads);
 
 /// SpectraSpectrum or SlepcSpectrum.
 using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int, double);
