@@ -427,9 +427,7 @@ DefectivePair MakeDefectivePair(Choice& choice, const Defects& defects)
   const Shape& shape = Shapes[choice.Integer(0, std::size(Shapes) - 1)];
   pair.description = shape.name;
   TriangleMesh mesh = shape.make(choice);
-  // If a flat part lies in a face of the grid, open seams would put it into two layers of cells,
-  // which have other functions. The surface is therefore turned.
-  pair.isAligned = !defects.hasSeams && choice.OneIn(2);
+  pair.isAligned = choice.OneIn(2);
   if (!pair.isAligned)
   {
     mesh = Placed(choice, mesh);

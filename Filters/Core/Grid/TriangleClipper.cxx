@@ -59,8 +59,16 @@ void TriangleClipper::Clip(Id triangle, ClipBuffer& store)
   {
     whole.Push(corner, corner);
   }
+  hasMovedPiece_ = false;
   this->ClipAxis(whole, 0, store);
-  this->LinkPieces(store);
+  if (hasMovedPiece_)
+  {
+    this->LinkByEdges(store);
+  }
+  else
+  {
+    this->LinkPieces(store);
+  }
 }
 
 bool TriangleClipper::IsInOneCell(CellIndex& cell)
@@ -150,6 +158,7 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBuffer& sto
   const PlaneRange planes = PlanesBetween(low, high);
   if (planes.count == 0)
   {
+    slab_[axis] = std::min(static_cast<int>(low), input_.cellsPerSide - 1);
     this->ClipAxis(polygon, axis + 1, store);
     return;
   }
@@ -160,13 +169,15 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBuffer& sto
   {
     Polygon& next = above[k % 2];
     this->Split(*rest, axis, planes.first + k, below, next, store);
-    if (below.size > 0 && this->IsNearRegion(axis, planes.first + k - 1))
+    slab_[axis] = planes.first + k - 1;
+    if (below.size > 0 && this->IsNearRegion(axis, slab_[axis]))
     {
       this->ClipAxis(below, axis + 1, store);
     }
     rest = &next;
   }
-  if (rest->size > 0 && this->IsNearRegion(axis, planes.first + planes.count - 1))
+  slab_[axis] = planes.first + planes.count - 1;
+  if (rest->size > 0 && this->IsNearRegion(axis, slab_[axis]))
   {
     this->ClipAxis(*rest, axis + 1, store);
   }
@@ -348,6 +359,7 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBuffer& store)
   {
     return;
   }
+  hasMovedPiece_ |= cell != slab_;
   const Index piece = store.Append(MortonEncode(cell), static_cast<Index>(triangle_), nextChunk_);
   const CellCode code = (CellCode{ cell[0] } << ShiftOf(0)) + (CellCode{ cell[1] } << ShiftOf(1)) +
                         (CellCode{ cell[2] } << ShiftOf(2));
@@ -386,79 +398,6 @@ void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, ClipBuf
     else if (known != number)
     {
       store.links.emplace_back(known, number);
-    }
-  }
-}
-
-void TriangleClipper::LinkPieces(ClipBuffer& store) const
-{
-  for (const LocalPiece& piece : pieces_)
-  {
-    for (int i = 0; i < piece.size; ++i)
-    {
-      const Corner& corner = corners_[piece.firstCorner + i];
-      const int axis = corner.tag - PlaneTag;
-      if (axis < 0)
-      {
-        continue;
-      }
-      constexpr CellCode Mask = (CellCode{ 1 } << BitsPerAxis) - 1;
-      const CellCode index = (piece.cell >> ShiftOf(axis)) & Mask;
-      if (static_cast<CellCode>(vertices_[corner.vertex].position[axis]) == index + 1)
-      {
-        this->LinkAcross(piece, i, store);
-      }
-    }
-  }
-}
-
-bool TriangleClipper::HasEdge(const ClipBuffer& store, const LocalPiece& piece, Index a, Index b)
-{
-  const Index* const ids = store.corner.data() + store.cornerBegin[piece.piece];
-  Index from = ids[piece.size - 1];
-  for (int i = 0; i < piece.size; ++i)
-  {
-    const Index to = ids[i];
-    if ((from == a && to == b) || (from == b && to == a))
-    {
-      return true;
-    }
-    from = to;
-  }
-  return false;
-}
-
-const TriangleClipper::LocalPiece* TriangleClipper::FindPiece(CellCode cell) const
-{
-  const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), cell,
-    [](const LocalPiece& piece, CellCode wanted) { return piece.cell < wanted; });
-  return found != pieces_.end() && found->cell == cell ? &*found : nullptr;
-}
-
-/// Links a piece to the piece on the other side of a cut, which is in the next cell. If the cut
-/// runs along an edge of the grid, it can be one cell away along the axes clipped later.
-void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBuffer& store) const
-{
-  const Index* const ids = store.corner.data() + store.cornerBegin[piece.piece];
-  const Index from = ids[corner];
-  const Index to = ids[corner + 1 == piece.size ? 0 : corner + 1];
-  const int axis = corners_[piece.firstCorner + corner].tag - PlaneTag;
-  static constexpr std::array<int, 3> Shifts = { 0, -1, 1 };
-  for (const int shiftZ : Shifts)
-  {
-    for (const int shiftY : Shifts)
-    {
-      if ((axis == 2 && shiftZ != 0) || (axis >= 1 && shiftY != 0))
-      {
-        continue;
-      }
-      const LocalPiece* other = this->FindPiece(piece.cell + (CellCode{ 1 } << ShiftOf(axis)) +
-                                                shiftY * (CellCode{ 1 } << ShiftOf(1)) + shiftZ);
-      if (other && HasEdge(store, *other, from, to))
-      {
-        store.links.emplace_back(store.NumberOf(piece.piece), store.NumberOf(other->piece));
-        return;
-      }
     }
   }
 }

@@ -131,6 +131,7 @@ private:
   void Emit(const Polygon& polygon, ClipBuffer& store);
   void NoteStretches(const Polygon& polygon, Index piece, ClipBuffer& store);
   void LinkPieces(ClipBuffer& store) const;
+  void LinkByEdges(ClipBuffer& store);
   const LocalPiece* FindPiece(CellCode cell) const;
   static bool HasEdge(const ClipBuffer& store, const LocalPiece& piece, Index a, Index b);
   void LinkAcross(const LocalPiece& piece, int corner, ClipBuffer& store) const;
@@ -143,8 +144,12 @@ private:
   std::array<PlaneRange, 3> planes_{};
   std::array<Edge, 3> edge_{};
   Array<Vertex> vertices_;
-  Array<LocalPiece> pieces_; // ascending by (i, j, k)
+  Array<LocalPiece> pieces_; // ascending by (i, j, k), unless one has moved
   Array<Corner> corners_;
+  CellIndex slab_{}; // the cell that polygons are being cut to
+  /// A line of the clip was moved onto a plane, so that a piece belongs to the cell above its slab.
+  bool hasMovedPiece_ = false;
+  Array<std::array<Index, 3>> sides_; // of the pieces: two points, the piece
 
   static constexpr Id LargestTable = Id{ 1 } << 20;
   std::array<std::vector<Slot>, 3> slots_; // planes xy, xz, yz
