@@ -11,13 +11,21 @@ find_program(CMARK_GFM cmark-gfm)
 if (NOT PARAVIEW_QT_MAJOR_VERSION)
   set(PARAVIEW_QT_MAJOR_VERSION 5) # ParaView 5.11 does not tell
 endif ()
-find_package(Qt${PARAVIEW_QT_MAJOR_VERSION} QUIET COMPONENTS Help OPTIONAL_COMPONENTS Tools)
+find_package(Qt${PARAVIEW_QT_MAJOR_VERSION} QUIET COMPONENTS Help OPTIONAL_COMPONENTS Tools Widgets)
 set(GRIDFEM_HELP OFF)
 if (PARAVIEW_USE_QT AND CMARK_GFM AND Qt${PARAVIEW_QT_MAJOR_VERSION}Help_FOUND)
   set(GRIDFEM_HELP ON)
 elseif (PARAVIEW_USE_QT)
   message(STATUS
     "ParaView will have no help pages: they need cmark-gfm and Qt${PARAVIEW_QT_MAJOR_VERSION}Help")
+endif ()
+# What the plugin adds to the menus of the window.
+set(GRIDFEM_WINDOW OFF)
+if (PARAVIEW_USE_QT AND Qt${PARAVIEW_QT_MAJOR_VERSION}Widgets_FOUND AND TARGET ParaView::pqApplicationComponents)
+  set(GRIDFEM_WINDOW ON)
+elseif (PARAVIEW_USE_QT)
+  message(STATUS "The window will have no examples, sections and words to search for: they need "
+    "Qt${PARAVIEW_QT_MAJOR_VERSION}Widgets")
 endif ()
 paraview_plugin_build(
   PLUGINS ${plugins}

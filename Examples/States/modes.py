@@ -16,6 +16,7 @@ from paraview.simple import (
     GetAnimationScene,
     GetColorTransferFunction,
     LoadDistributedPlugin,
+    OutputPort,
     RenameSource,
     Render,
     ResetCamera,
@@ -40,6 +41,7 @@ modes = LaplaceSpectrum(Input=mesh, Basis=basis, NumberOfModes=20)  # noqa: F821
 
 view = GetActiveViewOrCreate("RenderView")
 display = Show(modes, view)
+Show(OutputPort(modes, 2), view)  # the number of the mode
 ColorBy(display, ("POINTS", "Mode"))
 colors = GetColorTransferFunction("Mode")
 colors.ApplyPreset("Cool to Warm", True)

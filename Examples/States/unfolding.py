@@ -1,5 +1,5 @@
-"""A ParaView state: folds that nearly touch unfold, with plain functions in the left view and
-connectivity-aware functions in the right view.
+"""A ParaView state: folds that nearly touch unfold. The left view has plain functions, the right one has
+connectivity-aware functions.
 
 Load the plugin in ParaView and choose File > Load State. Or show the knot of the main job:
 
@@ -19,6 +19,7 @@ from paraview.simple import (
     GetAnimationScene,
     GetColorTransferFunction,
     LoadDistributedPlugin,
+    OutputPort,
     RenameSource,
     Render,
     ResetCamera,
@@ -53,6 +54,7 @@ layout.SplitHorizontal(0, 0.5)
 for cell, view, flow in zip((1, 2), views, (plain, aware)):
     layout.AssignView(cell, view)
     display = Show(flow, view)
+    Show(OutputPort(flow, 2), view)  # the number of the step
     ColorBy(display, ("POINTS", "ConformalFactor"))
     display.SetScalarBarVisibility(view, flow is aware)
 colors = GetColorTransferFunction("ConformalFactor")

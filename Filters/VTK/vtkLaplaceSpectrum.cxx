@@ -41,7 +41,7 @@ struct vtkLaplaceSpectrum::Internals
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
   const gridfem::EquationOptions equation = gridfem::EquationOfModes();
   this->Tolerance = equation.solve.tolerance;
   this->State->options.multigrid.cycle = equation.multigrid.cycle;
@@ -51,7 +51,7 @@ vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;
 
 int vtkLaplaceSpectrum::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkTable");
   return 1;
 }
 
@@ -102,11 +102,13 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Solve();
 
   const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
-  this->WriteModes(input ? input : nothing, outputs->GetInformationObject(0), output);
+  const int shown =
+    this->WriteModes(input ? input : nothing, outputs->GetInformationObject(0), output);
   surface.Together(
     [&]
     {
       this->WriteFields(output);
+      this->WriteLabel(shown, vtkTable::GetData(outputs, 2));
       if (gridfem::Ranks().IsFirst())
       {
         this->WriteTable(vtkTable::GetData(outputs, 1));
@@ -162,7 +164,8 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
 }
 
 /// Adds one mode at a time, because all of them may need much memory. Collective.
-void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
+/// @return  the shown mode, or -1 with all modes
+int vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
   output->ShallowCopy(input);
   if (gridfem::CarriesModes(output))
@@ -175,7 +178,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
     this->State->Surface().Together([&] { shown = this->ShownMode(info); });
     this->AddMode(shown, "Mode", output);
     output->GetPointData()->SetActiveScalars("Mode");
-    return;
+    return shown;
   }
   for (int mode = 0; mode < this->Data->FoundModes; ++mode)
   {
@@ -183,6 +186,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   }
   const int varying = std::min(1, this->Data->FoundModes - 1); // mode 0 is constant
   output->GetPointData()->SetActiveScalars(gridfem::ModeName(varying).c_str());
+  return -1;
 }
 
 void vtkLaplaceSpectrum::AddMode(int mode, const std::string& name, vtkPolyData* output)
@@ -208,6 +212,19 @@ void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
   gridfem::AddFieldInt(output, "CutsGroup", result.spectrum.cutsMultiplet ? 1 : 0);
   gridfem::AddFieldInt(output, "TrustedEstimate", result.isErrorTrusted ? 1 : 0);
   this->State->Surface().WriteTracking(output);
+}
+
+/// Tells in the view which mode is shown. Without one the text is empty, because a view without a
+/// new text keeps the last.
+void vtkLaplaceSpectrum::WriteLabel(int shown, vtkTable* label) const
+{
+  std::string text;
+  if (shown >= 0)
+  {
+    const double eigenvalue = this->Data->Result->eigenvalues[static_cast<std::size_t>(shown)];
+    text = "Mode " + std::to_string(shown) + ", eigenvalue " + gridfem::ShortNumber(eigenvalue);
+  }
+  gridfem::WriteText(text, label);
 }
 
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table) const

@@ -43,6 +43,9 @@
  * - `TrustedEstimate` (int): 1 if the three values approach each other as on a resolved surface. If
  *   it is 0, the error may be far larger.
  *
+ * Output port 2 (vtkTable) has the shown mode and its eigenvalue as `Text`, in one row, for
+ * ParaView's view. The text is empty with AllModes on.
+ *
  * Time: every mode but mode 0 is a time step, with its index as time value, unless AllModes is on
  * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. With
  * ZeroBoundaryValues it is a time step, too. All modes are computed once. A change of time or of
@@ -177,8 +180,9 @@ private:
   int FirstTimeStep(int numberOfModes) const;
   int ShownMode(vtkInformation* output) const;
   void AddMode(int mode, const std::string& name, vtkPolyData* output);
-  void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
+  int WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
   void WriteFields(vtkPolyData* output) const;
+  void WriteLabel(int shown, vtkTable* label) const;
   void WriteTable(vtkTable* table) const;
 
   struct Internals;

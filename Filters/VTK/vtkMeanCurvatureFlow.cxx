@@ -61,7 +61,7 @@ struct vtkMeanCurvatureFlow::Internals
 vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
   this->Tolerance = gridfem::FlowSolver::Options().equation.solve.tolerance;
 }
 
@@ -69,7 +69,7 @@ vtkMeanCurvatureFlow::~vtkMeanCurvatureFlow() = default;
 
 int vtkMeanCurvatureFlow::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkTable");
   return 1;
 }
 
@@ -122,6 +122,9 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   gridfem::AddFieldInt(output, "Converged", solver.HasConverged(shown) ? 1 : 0);
   gridfem::AddAccuracy(result.steps[shown].accuracy, output);
   WriteTable(result.steps, vtkTable::GetData(outputs, 1));
+  gridfem::WriteText("Step " + std::to_string(shown) + ", sphericity " +
+                       gridfem::ShortNumber(result.steps[shown].sphericity),
+    vtkTable::GetData(outputs, 2));
   this->Warn(result.warnings);
   progress.Check(1.0);
 }

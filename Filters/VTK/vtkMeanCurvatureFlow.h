@@ -54,6 +54,9 @@
  *   contribute nothing.
  * - `DiscretizationError`, `Seconds`.
  *
+ * Output port 2 (vtkTable) has the shown step and its sphericity as `Text`, in one row, for
+ * ParaView's view.
+ *
  * Time: every step is a time step, with its number as time value, from 0, the input. TimeFrom can
  * give the times of the input instead. A request without a time gets the last step. All steps are
  * computed once, and a larger NumberOfSteps continues. The filter keeps evenly spread steps within

@@ -23,6 +23,15 @@ REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "Smoothin
                  "TransitionWidth": 0, "FWHM": 0, "Sigma": 0, "Range": 0,
                  "StandardDeviation": 0}
 
+# Words that people type into the search of ParaView's window, and a filter that they find.
+JOBS = {
+    "smooth": "ScreenedPoisson", "denoise": "HeatDiffusion", "sharpen": "SurfaceDetail",
+    "eigenfunctions": "LaplaceSpectrum", "eigenvalues": "LaplaceSpectrum",
+    "harmonic": "HarmonicInterpolation", "heat kernel": "SpectralSignatures",
+    "geodesic": "GeodesicDistance", "shortest path": "GeodesicPaths",
+    "curvature": "PrincipalCurvatures", "unfold": "MeanCurvatureFlow", "kriging": "GaussianField",
+    "random field": "GaussianField", "fill in": "HarmonicInterpolation"}
+
 
 def is_shown(proxy, decorator):
     """Whether a decorator of the panel shows its property, on a surface without blocks."""
@@ -229,6 +238,19 @@ class TestDefaults(unittest.TestCase):
             with self.subTest(proxy=name):
                 entry = proxy.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
                 self.assertEqual(entry.GetAttribute("category"), "Surface FEM")
+                self.assertIn(entry.GetAttribute("section"), ("Solve", "Analyze", "Shape", "Basis"))
+
+    def test_filters_are_found_by_their_job(self):
+        """ParaView's search finds a filter by its label and its jobs, and from 5.13 on by its
+        documentation."""
+        for words, name in JOBS.items():
+            proxy = self.proxies[name].SMProxy
+            jobs = proxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("jobs")
+            page = proxy.GetDocumentation()
+            for text in (f"{proxy.GetXMLLabel()}: {jobs}",
+                         f"{proxy.GetXMLLabel()} {page.GetShortHelp()} {page.GetLongHelp()} {page.GetDescription()}"):
+                with self.subTest(words=words, proxy=name, text=text):
+                    self.assertIn(words, text.lower())
 
 
 if __name__ == "__main__":

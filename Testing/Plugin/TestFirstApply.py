@@ -34,8 +34,8 @@ SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIn
                                   "MaximumCurvature"),
           "SurfaceGradient": ("Laplacian",)}
 
-SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1},
-               "MeanCurvatureFlow": {0, 1}}
+SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1, 2},
+               "MeanCurvatureFlow": {0, 1, 2}}
 
 
 class FirstApply(unittest.TestCase):

@@ -33,6 +33,11 @@ self.GetPolyDataOutput().GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), ti
 """
 
 
+def label(proxy):
+    """Returns the text that ParaView shows in the view of a filter."""
+    return proxy.GetClientSideObject().GetOutputDataObject(2).GetValueByName(0, "Text").ToString()
+
+
 def growing_sphere():
     """Makes, at the times 1, 2 and 3, a sphere whose radius is the time."""
     return simple.ProgrammableSource(
@@ -96,7 +101,13 @@ class TestTime(unittest.TestCase):
             modes.UpdatePipeline(mode)
             self.assertAlmostEqual(self.first_eigenvalue(modes), 2.0, delta=0.1)
             self.assertAlmostEqual(self.largest_x(modes), 1.0, delta=0.05)
+            table = modes.GetClientSideObject().GetOutputDataObject(1)
+            eigenvalue = table.GetColumnByName("Eigenvalue").GetValue(int(mode))
+            self.assertEqual(label(modes), f"Mode {mode:.0f}, eigenvalue {eigenvalue:.4g}")
         self.assertEqual(plugin.runs(modes)["Solve"], 1)
+        modes.AllModes = 1
+        modes.UpdatePipeline()
+        self.assertEqual(label(modes), "")
 
     def test_stepping_through_a_flow_does_not_change_the_surface(self):
         flow = simple.MeanCurvatureFlow(Input=self.surface, Depth=DEPTH, NumberOfSteps=4)
@@ -106,6 +117,7 @@ class TestTime(unittest.TestCase):
             flow.UpdatePipeline(step)
             size = self.largest_x(flow)
             self.assertEqual(sizes.setdefault(step, size), size)
+            self.assertRegex(label(flow), rf"Step {step:.0f}, sphericity (1|0\.\d+)$")
         self.assertLess(sizes[1.0], 1.0)
         self.assertLess(sizes[2.0], sizes[1.0])
         self.assertLess(sizes[3.0], sizes[2.0])

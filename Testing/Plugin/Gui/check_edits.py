@@ -39,6 +39,8 @@ def value_of(proxy, name):
 SURFACES = {"GeodesicPaths": [0, 1], "ClipToOctree": [0, 2]}
 # The series of a chart that opens beside a filter, and the titles of its axes.
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
+# Filters that tell in the view what is shown.
+LABELED = ("LaplaceSpectrum", "MeanCurvatureFlow")
 TITLES = {"LaplaceSpectrum": ("Mode", "Eigenvalue"),
           "MeanCurvatureFlow": ("Step", "Sphericity")}
 
@@ -84,6 +86,9 @@ def check_shown(name):
     if ([shown.GetOutputPortForConnection(0) for shown in inputs] != SURFACES.get(name, [0])
             or any(shown.GetProxy(0) != source.SMProxy for shown in inputs)):
         sys.exit(f"{name}: {len(surfaces)} surfaces are shown")
+    labels = [part for part in seen if part.SMProxy.GetXMLName() == "TextSourceRepresentation"]
+    if len(labels) != (name in LABELED):
+        sys.exit(f"{name}: {len(labels)} labels are shown")
     association, array = surfaces[0].ColorArrayName
     wanted_array, colors = plugin.colors_of(name)
     if (array or "") != wanted_array:
@@ -95,7 +100,7 @@ def check_shown(name):
     if not array or not surfaces[0].MapScalars:  # the shape alone, or unchanged colors
         simple.ResetSession()
         return
-    if len(seen) != len(surfaces) + 1:
+    if len(seen) != len(surfaces) + len(labels) + 1:
         sys.exit(f"{name}: no color bar is shown")
     data = source.PointData if association == "POINTS" else source.CellData
     source.UpdatePipeline(simple.GetActiveView().ViewTime)

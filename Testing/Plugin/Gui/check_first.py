@@ -104,6 +104,13 @@ class FirstApply(unittest.TestCase):
         self.assertEqual(proxy.Sources, simple.FindSource("raw.vtp"))
         self.assertEqual(proxy.PointData["Distance"].GetRange(), (0, 0))  # the same points
 
+    def test_an_example_of_the_help_menu_is_loaded(self):
+        simple.ResetSession()
+        simple.LoadState(f"{FOLDER}/example.pvsm")
+        paths = [proxy for proxy in simple.GetSources().values() if proxy.SMProxy.GetXMLName() == "GeodesicPaths"]
+        self.assertGreater(len(paths), 0)
+        self.assertGreater(plugin.data(paths[0], 1).GetNumberOfLines(), 0)
+
 
 if __name__ == "__main__":
     plugin.load()

@@ -1,4 +1,6 @@
 """Actions in ParaView's window, in the form that its test player plays."""
+from paraview import simple
+
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 MENUS = "pqClientMainWindow/menubar"
@@ -34,6 +36,23 @@ class Script:
     def make(self, name):
         """Makes a filter on what is active."""
         self.event(f"{MENUS}/menuFilters/Surface FEM", "activate", name)
+
+    def search(self, words):
+        """Makes the first filter on what is active that ParaView's search finds by words."""
+        if simple.GetParaViewVersion() >= (5, 13):
+            dialog = "pqClientMainWindow/QuickLaunchDialogExtended"
+            self.event(f"{MENUS}/menuFilters", "activate", "quickLaunchAction")
+            self.event(f"{dialog}/Request", "set_string", words)
+            self.event(f"{dialog}/CreateProxy", "activate")
+            return
+        self.event(f"{MENUS}/menuFilters", "activate", "Search...&#9;Ctrl+Space")
+        for letter in words:
+            self.event("pqClientMainWindow/QuickLaunchDialog", "keyEvent", f"6:{ord(letter.upper())}:0:{letter}:0:1")
+        self.event("pqClientMainWindow/QuickLaunchDialog", "keyEvent", "6:16777220:0:&#13;:0:1")
+
+    def example(self, name):
+        """Opens an example of the Help menu."""
+        self.event(f"{MENUS}/menu_Help/SurfaceFEMExamples", "activate", name)
 
     def enter(self, prop, value):
         """Gives a property a value, in the widget that panels have for its kind."""

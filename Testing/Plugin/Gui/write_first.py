@@ -49,8 +49,12 @@ def write_surfaces():
         writer.Write()
 
 
-def first_apply(name, state, **values):
-    script.make(name)
+def first_apply(name, state, words="", **values):
+    """Applies a filter of the menu, or the filter that the search finds by words."""
+    if words:
+        script.search(words)
+    else:
+        script.make(name)
     for key, value in values.items():
         script.enter(getattr(simple, name)(Input=surface).SMProxy.GetProperty(key), value)
     script.apply()
@@ -59,7 +63,7 @@ def first_apply(name, state, **values):
 
 def look_at_modes():
     """Three modes and back to the first, then all of them, with another one chosen in the toolbar."""
-    first_apply("LaplaceSpectrum", "raw.LaplaceSpectrum", Depth=DEPTH, NumberOfModes="8")
+    first_apply("LaplaceSpectrum", "raw.LaplaceSpectrum", "eigenfunctions", Depth=DEPTH, NumberOfModes="8")
     for button in (NEXT, NEXT, NEXT, FIRST):
         script.event(f"{TIME}{button}", "activate")
     script.save("raw.ModesPlayed")
@@ -99,4 +103,6 @@ for file, filters in PAIRS:
         first_apply(filter_name, f"{file}.{filter_name}", Depth=DEPTH)
         script.delete()
 choose_sources()
+script.example("path")
+script.save("example")
 script.write("first")

@@ -9,12 +9,14 @@
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace gridfem
 {
@@ -156,6 +158,22 @@ void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkT
   AddColumn(table, "DiscretizationError", std::vector<double>(rows, accuracy.discretization));
   AddColumn(table, "Log10AlgebraicError", logAlgebraic);
   AddColumn(table, "Log10DiscretizationError", std::vector<double>(rows, logDiscretization));
+}
+
+void WriteText(const std::string& text, vtkTable* table)
+{
+  vtkNew<vtkStringArray> column;
+  column->SetName("Text");
+  column->InsertNextValue(text);
+  table->AddColumn(column);
+}
+
+std::string ShortNumber(double number)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << number;
+  return text.str();
 }
 
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)

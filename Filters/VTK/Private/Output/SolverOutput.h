@@ -9,6 +9,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -65,6 +66,12 @@ void WriteHistory(const SolveReport& report, vtkTable* table);
 /// Adds the columns AlgebraicError, after the correction of each row, and DiscretizationError, with
 /// their logarithms.
 void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table);
+
+/// Writes a text as a table that ParaView shows in the 3D view.
+void WriteText(const std::string& text, vtkTable* table);
+
+/// Returns a number with four digits, for a text.
+std::string ShortNumber(double number);
 
 /// Adds a column of numbers to a table.
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values);
