@@ -392,6 +392,61 @@ TEST(Selection, ThatCannotBeEvaluatedIsRefused)
   ExpectRefused(DetailOf(Sphere(), frustum(nullptr)), "eight corners");
 }
 
+/// VTK crashes on the first two, and takes other points or none for the rest.
+TEST(Selection, WithAListThatDoesNotFitIsRefused)
+{
+  const auto refuse = [](int content, vtkDataArray* list, const char* name, const char* reason)
+  {
+    SCOPED_TRACE(reason);
+    const auto node = NodeOf(vtkSelectionNode::POINT, content, list);
+    list->SetName(name);
+    node->GetProperties()->Set(vtkSelectionNode::COMPONENT_NUMBER(), 0);
+    ExpectRefused(DetailOf(Sphere(), SelectionOf(node)), reason);
+  };
+  refuse(vtkSelectionNode::VALUES, Numbers(1, { 0.0, std::nan(""), 1.0 }), "f", "not numbers");
+  const auto cut = Sphere();
+  cut->GetPointData()->GetArray("f")->SetNumberOfTuples(7);
+  const auto range = Numbers(2, { 0.2, 0.9 });
+  range->SetName("f");
+  const auto node = NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::THRESHOLDS, range);
+  ExpectRefused(DetailOf(cut, SelectionOf(node)), "'f', which does not have numbers for all");
+  node->GetProperties()->Set(vtkSelectionNode::COMPONENT_NUMBER(), 1);
+  ExpectRefused(DetailOf(Sphere(), SelectionOf(node)), "the component 1 of the array 'f'");
+  refuse(vtkSelectionNode::VALUES, IdArray({ 1 }), "f", "Both must be of one type");
+  refuse(vtkSelectionNode::INDICES, Numbers(1, { 1.0 }), "ids", "a list of integers");
+  refuse(vtkSelectionNode::THRESHOLDS, Numbers(1, { 0.1, 0.2, 0.3 }), "f", "two for a range");
+  refuse(vtkSelectionNode::LOCATIONS, Numbers(3, { 0.0, INFINITY, 0.0 }), "places", "finite");
+  refuse(vtkSelectionNode::BLOCKS, IdArray({ 1 }), "blocks", "an input with blocks");
+  refuse(vtkSelectionNode::FRUSTUM, Numbers(4, std::vector<double>(32, 1.0)), "corners", "volume");
+}
+
+/// ParaView has one node for each of its processes. The nodes of others are ignored, however many.
+TEST(Selection, TakesTheNodesOfThisProcess)
+{
+  const auto selection = SelectPoints({ 5 });
+  for (const int process : { 1, 2, 3, 0, 4 })
+  {
+    const auto node =
+      NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::INDICES, IdArray({ 10 + process }));
+    node->GetProperties()->Set(vtkSelectionNode::PROCESS_ID(), process);
+    selection->AddNode(node);
+  }
+  EXPECT_EQ(Selected(Sphere(), selection), std::vector<vtkIdType>({ 5, 10 }));
+}
+
+TEST(Selection, ByAnExpressionThatCannotBeEvaluatedIsRefused)
+{
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  selection->SetNode(
+    "A", NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::INDICES, IdArray({ 1, 2 })));
+  selection->SetNode(
+    "B", NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::INDICES, IdArray({ 2, 3 })));
+  selection->SetExpression("A&!B");
+  EXPECT_EQ(Selected(Sphere(), selection), std::vector<vtkIdType>({ 1 }));
+  selection->SetExpression("A&");
+  ExpectRefused(DetailOf(Sphere(), selection), "the expression 'A&'");
+}
+
 TEST(Selection, OfNothingIsNoPoint)
 {
   EXPECT_TRUE(Selected(Sphere(), SelectPoints({})).empty());

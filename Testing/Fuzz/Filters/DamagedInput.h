@@ -1,4 +1,4 @@
-// Filters on damaged data: saved bases, cell arrays, and messages between ranks. Every
+// Filters on damaged data: saved bases, cell arrays, selections, and messages between ranks. Every
 // case must be refused with one message, or give the right result. It must never crash.
 #ifndef GridFEM_Testing_DamagedInput_h
 #define GridFEM_Testing_DamagedInput_h
@@ -40,6 +40,7 @@ void DamageArray(Choice& choice, vtkDataArray* array, DamagedCase& outcome);
 ///@{ Each makes one random case.
 void SolveOnDamagedBasis(Choice& choice, DamagedCase& outcome);
 void RunOnDamagedCells(Choice& choice, DamagedCase& outcome);
+void SelectByDamagedNodes(Choice& choice, DamagedCase& outcome);
 void TakeDamagedMessage(Choice& choice, DamagedCase& outcome);
 ///@}
 

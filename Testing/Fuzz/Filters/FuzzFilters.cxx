@@ -78,7 +78,7 @@ struct Kind
 };
 
 constexpr Kind Kinds[] = { { "basis", &SolveOnDamagedBasis }, { "cells", &RunOnDamagedCells },
-  { "message", &TakeDamagedMessage } };
+  { "message", &TakeDamagedMessage }, { "selection", &SelectByDamagedNodes } };
 
 const Kind& KindOf(std::uint64_t seed)
 {

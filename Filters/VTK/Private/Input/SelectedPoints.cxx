@@ -98,6 +98,27 @@ vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
   return copy;
 }
 
+/// Returns a copy without the nodes of other processes. VTK reads beyond the last node if there are
+/// several of them.
+vtkSmartPointer<vtkSelection> NodesOfThisProcess(vtkSelection* selection)
+{
+  auto own = vtkSmartPointer<vtkSelection>::New(); // it stays with its own pipeline
+  own->ShallowCopy(selection);
+  const int process = Ranks().Own();
+  for (unsigned int k = own->GetNumberOfNodes(); k-- > 0;)
+  {
+    vtkInformation* properties = own->GetNode(k)->GetProperties();
+    const int owner = properties->Has(vtkSelectionNode::PROCESS_ID())
+                        ? properties->Get(vtkSelectionNode::PROCESS_ID())
+                        : -1;
+    if (owner != -1 && owner != process)
+    {
+      own->RemoveNode(k);
+    }
+  }
+  return own;
+}
+
 /// Returns the part of extracted data at the block's place in the whole. Null if it has none.
 vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
@@ -226,17 +247,16 @@ std::vector<char> SelectedPoints::PointsOfBlocks(const JoinedBlocks& joined) con
 }
 
 /// Extracts again only if data or selection have changed.
-void SelectedPoints::Extract(vtkDataObject* data, vtkSelection* selection)
+/// @param own  the nodes of this process
+/// @param selectionTime  of the last change of the selection
+void SelectedPoints::Extract(vtkDataObject* data, vtkSelection* own, std::int64_t selectionTime)
 {
   const auto dataTime = static_cast<std::int64_t>(data->GetMTime());
-  const auto selectionTime = static_cast<std::int64_t>(selection->GetMTime());
   if (extracted_ && dataTime_ == dataTime && selectionTime_ == selectionTime)
   {
     return;
   }
   extracted_ = nullptr;
-  auto own = vtkSmartPointer<vtkSelection>::New(); // it stays with its own pipeline
-  own->ShallowCopy(selection);
   std::string error;
   vtkNew<vtkCallbackCommand> listen;
   listen->SetClientData(&error);
@@ -322,14 +342,15 @@ void SelectedPoints::Update(
 std::vector<char> SelectedPoints::Evaluate(
   vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
 {
-  if (selection->GetNumberOfNodes() == 0) // VTK fails on blocks without nodes, or loses the blocks
+  const auto own = NodesOfThisProcess(selection);
+  if (own->GetNumberOfNodes() == 0) // VTK fails on blocks without nodes, or loses the blocks
   {
     vtkPolyData* whole = joined ? joined->Surface().whole.GetPointer() : surface;
     return std::vector<char>(whole->GetNumberOfPoints(), 0);
   }
   vtkDataObject* data = whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0);
-  RequireEvaluable(selection);
-  this->Extract(data, selection);
+  RequireEvaluable(own, data);
+  this->Extract(data, own, static_cast<std::int64_t>(selection->GetMTime()));
   vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
   return joined ? this->PointsOfBlocks(*joined)
          : part ? PointsOf(part, surface)

@@ -66,7 +66,7 @@ private:
     vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined);
   vtkDataSet* PartOf(vtkDataObject* block) const;
   std::vector<char> PointsOfBlocks(const JoinedBlocks& joined) const;
-  void Extract(vtkDataObject* data, vtkSelection* selection);
+  void Extract(vtkDataObject* data, vtkSelection* own, std::int64_t selectionTime);
 
   vtkAlgorithm* filter_;
   unsigned long observers_[2] = { 0, 0 };

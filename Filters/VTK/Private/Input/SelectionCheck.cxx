@@ -1,13 +1,20 @@
 #include "Input/SelectionCheck.h"
 
+#include "Input/SelectionLists.h"
 #include "Pieces/Ranks.h"
 
 #include "Base/Errors.h"
 
-#include "vtkDoubleArray.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
+#include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
 
 namespace gridfem
 {
@@ -31,28 +38,67 @@ int KindOf(vtkSelectionNode* node)
   return takesCells ? static_cast<int>(vtkSelectionNode::CELL) : kind;
 }
 
-/// Requires the list that VTK reads without a check.
-void RequireList(vtkSelectionNode* node)
+/// Requires a kind of content that VTK has an operation for.
+void RequireContent(vtkSelectionNode* node)
 {
-  vtkAbstractArray* const list = node->GetSelectionList();
   const int content = node->GetContentType();
-  const bool isByPlace = content == vtkSelectionNode::LOCATIONS;
-  const bool isByNumbers =
-    content == vtkSelectionNode::GLOBALIDS || content == vtkSelectionNode::PEDIGREEIDS ||
-    content == vtkSelectionNode::VALUES || content == vtkSelectionNode::INDICES ||
-    content == vtkSelectionNode::THRESHOLDS || content == vtkSelectionNode::BLOCKS;
-  if (!list || !(isByPlace || isByNumbers))
+  const bool isKnown = content >= 0 && content < vtkSelectionNode::NUM_CONTENT_TYPES;
+  const bool isQuery = content == vtkSelectionNode::QUERY;
+  if (!isKnown || content == vtkSelectionNode::USER || (isQuery && !HasQueries))
   {
-    return;
-  }
-  const int components = list->GetNumberOfComponents();
-  const bool fits = isByPlace ? components == 3 : components == 1 || components == 2;
-  if (!vtkDataArray::SafeDownCast(list) || !fits)
-  {
-    throw InvalidInput("The Selection of the kind " +
+    throw InvalidInput("The Selection is of the kind " +
                        std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
-                       " needs a list of numbers with " +
-                       (isByPlace ? "three components." : "one component, or two for a range."));
+                       ", which cannot be evaluated here.");
+  }
+  if (isQuery)
+  {
+    RequireOneProcess("A Selection by a query");
+    if (!node->GetQueryString())
+    {
+      throw InvalidInput("The Selection by a query has no query.");
+    }
+  }
+}
+
+/// VTK tells two values of this property apart in one place, and zero from others in another.
+void RequireSwitch(vtkSelectionNode* node)
+{
+  const int value = node->GetProperties()->Get(vtkSelectionNode::CONTAINING_CELLS());
+  if (value != 0 && value != 1)
+  {
+    throw InvalidInput("The Selection has the value " + std::to_string(value) +
+                       " for its cells that contain points. It must be 0 or 1.");
+  }
+}
+
+/// VTK adds one layer after the other, however many there are.
+void RequireLayers(vtkSelectionNode* node, vtkDataObject* data)
+{
+  const int layers = node->GetProperties()->Get(vtkSelectionNode::CONNECTED_LAYERS());
+  const vtkIdType cells = data->GetNumberOfElements(vtkDataObject::CELL);
+  if (layers > cells)
+  {
+    throw InvalidInput("The Selection has " + std::to_string(layers) +
+                       " layers of neighbors, but there are only " + std::to_string(cells) +
+                       " cells.");
+  }
+}
+
+/// Requires an expression that combines the nodes.
+void RequireExpression(vtkSelection* selection)
+{
+  if (selection->GetExpression().empty())
+  {
+    return; // any node
+  }
+  vtkNew<vtkSignedCharArray> one;
+  one->SetNumberOfTuples(1);
+  one->Fill(0.0);
+  const std::vector<vtkSignedCharArray*> nodes(selection->GetNumberOfNodes(), one.GetPointer());
+  if (!selection->Evaluate(nodes.data(), selection->GetNumberOfNodes()))
+  {
+    throw InvalidInput("The Selection has the expression '" + selection->GetExpression() +
+                       "', which cannot be evaluated.");
   }
 }
 
@@ -67,7 +113,7 @@ void RequireOneProcess(const std::string& what)
   }
 }
 
-void RequireEvaluable(vtkSelection* selection)
+void RequireEvaluable(vtkSelection* selection, vtkDataObject* data)
 {
   for (unsigned int k = 0; k < selection->GetNumberOfNodes(); ++k)
   {
@@ -76,26 +122,12 @@ void RequireEvaluable(vtkSelection* selection)
     {
       throw InvalidInput("The Selection has both points and cells. Choose one of them.");
     }
-    const int content = node->GetContentType();
-    if (content == vtkSelectionNode::USER || (content == vtkSelectionNode::QUERY && !HasQueries))
-    {
-      throw InvalidInput("The Selection is of the kind " +
-                         std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
-                         ", which cannot be evaluated here.");
-    }
-    if (content == vtkSelectionNode::QUERY)
-    {
-      RequireOneProcess("A Selection by a query");
-    }
-    RequireList(node);
-    vtkAbstractArray* list = node->GetSelectionList();
-    constexpr vtkIdType FrustumNumbers = 8 * 4; // corners, homogeneous
-    if (content == vtkSelectionNode::FRUSTUM &&
-        !(vtkDoubleArray::SafeDownCast(list) && list->GetNumberOfValues() == FrustumNumbers))
-    {
-      throw InvalidInput("A Selection by a frustum needs the eight corners of the frustum.");
-    }
+    RequireContent(node);
+    RequireSwitch(node);
+    RequireLayers(node, data);
+    RequireList(node, data);
   }
+  RequireExpression(selection);
 }
 
 } // namespace gridfem

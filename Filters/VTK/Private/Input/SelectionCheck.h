@@ -4,6 +4,7 @@
 
 #include <string>
 
+class vtkDataObject;
 class vtkSelection;
 
 namespace gridfem
@@ -13,8 +14,9 @@ namespace gridfem
 /// @param what  the beginning of the message
 void RequireOneProcess(const std::string& what);
 
-/// Throws InvalidInput for a selection that vtkExtractSelection cannot evaluate here.
-void RequireEvaluable(vtkSelection* selection);
+/// Throws InvalidInput for a selection that vtkExtractSelection cannot evaluate on the data. VTK
+/// itself crashes on some of them, and takes wrong points or none for others.
+void RequireEvaluable(vtkSelection* selection, vtkDataObject* data);
 
 } // namespace gridfem
 

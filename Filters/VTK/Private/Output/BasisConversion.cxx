@@ -15,9 +15,14 @@ namespace gridfem
 namespace
 {
 
-/// A clipped triangle belongs to a source triangle that is nearer than this part of a cell. The
-/// distance covers cut points in single precision.
-constexpr double SameTriangle = 0.05;
+/// Returns the largest distance, in cells, of a clipped triangle's center from its source triangle.
+/// Cut points may have been stored in single precision.
+double SameTriangle(const Grid& grid, const Vec3& center)
+{
+  constexpr double Largest = 0.05; // rounding of a surface far from the origin
+  const double size = grid.ToWorld(center).cwiseAbs().maxCoeff() / grid.spacing;
+  return std::min(Largest, 1e-6 + 4.0 * std::numeric_limits<float>::epsilon() * size);
+}
 
 [[noreturn]] void RefuseForeignBasis(const std::string& reason)
 {
@@ -149,7 +154,8 @@ Id FindSourceTriangle(
       best = triangle;
     }
   }
-  if (!(DistanceFromTriangle(source, clipped.grid, best, center) <= SameTriangle))
+  const double distance = DistanceFromTriangle(source, clipped.grid, best, center);
+  if (!(distance <= SameTriangle(clipped.grid, center)))
   {
     RefuseForeignBasis("its cells are in another order or join other points.");
   }
