@@ -90,9 +90,10 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
           const Solved solved = SolveOnRanks(surface.mesh, dealing, PoissonWith(weight), hasHats);
           EXPECT_TRUE(solved.report.converged);
           // On such a small surface most patches are at borders, where corrections are damped. If
-          // triangles are longer than cells, all ranks share all hats.
+          // triangles are longer than cells, all ranks share all hats. Eight ranks take 45
+          // iterations on the grid where one takes 29.
           const int ofOne = expected.report.iterations;
-          EXPECT_LE(solved.report.iterations, hasHats ? 2 + 1.3 * ofOne : 5 + 2 * ofOne);
+          EXPECT_LE(solved.report.iterations, hasHats ? 2 + 1.3 * ofOne : 4 + 1.5 * ofOne);
           for (const char hasValue : solved.hasValue)
           {
             EXPECT_TRUE(hasValue);

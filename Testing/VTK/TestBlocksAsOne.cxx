@@ -169,7 +169,7 @@ protected:
       for (std::size_t k = 0; k < values.size(); ++k)
       {
         double& value = seen[static_cast<std::size_t>(origin->GetComponent(k, 0))];
-        apart = std::isnan(value) ? apart : std::max(apart, std::abs(value - values[k]));
+        apart = std::isnan(value) ? apart : Larger(apart, std::abs(value - values[k]));
         value = values[k];
       }
     }

@@ -288,8 +288,8 @@ TEST_P(SurfaceDetailFilter, ChangesWhereTheSelectionIs)
     const double z = before[k - k % 3 + 2];
     moved = Larger(moved, std::abs(whole[k] - before[k]));
     differenceInside =
-      z > 0.3 ? std::max(differenceInside, std::abs(half[k] - whole[k])) : differenceInside;
-    movedOutside = z < -0.5 ? std::max(movedOutside, std::abs(half[k] - before[k])) : movedOutside;
+      z > 0.3 ? Larger(differenceInside, std::abs(half[k] - whole[k])) : differenceInside;
+    movedOutside = z < -0.5 ? Larger(movedOutside, std::abs(half[k] - before[k])) : movedOutside;
   }
   EXPECT_GT(moved, 5e-3);
   EXPECT_LT(differenceInside, 0.1 * moved);

@@ -244,10 +244,10 @@ TEST(GeodesicDistance, DoesNotDependOnTheTriangles)
     return values;
   };
   const std::vector<double> expected = at(coarse);
-  EXPECT_LT(
-    LargestError({ expected, {}, 0, 0, 0, {} }, DistancesInSpace(coarse, { 8 })), 0.07); // sqrt(t)
-  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(needles)), 2e-3);
-  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(soup)), 2e-3);
+  // Near the source, distances are off by a part of sqrt(t), which is 0.066 at this depth.
+  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, DistancesInSpace(coarse, { 8 })), 0.05);
+  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(needles)), 2e-4); // other quadrature
+  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(soup)), 1e-11);   // other order of sums
 }
 
 /// Two sheets a third of a cell apart, joined at one edge. The path leads around this edge.
@@ -306,8 +306,9 @@ TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
     ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - center).norm() - Radius); });
   for (const bool isOnHats : { false, true })
   {
-    // sqrt(t) is 0.033 on the grid and 0.016 on the hats. Fronts end near their corners.
-    EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.033) << isOnHats;
+    // Distances at the corners, where fronts end, are off by a part of sqrt(t), which is 0.033.
+    // Heat flows on the grid for hats, too.
+    EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.027) << isOnHats;
   }
 }
 

@@ -1,4 +1,5 @@
 // Distances by a marching front against exact distances, and the limit where it stops.
+#include "Largest.h"
 #include "Meshes.h"
 
 #include "Distance/MarchedDistance.h"
@@ -61,7 +62,7 @@ TEST(MarchedDistance, FromAPointOfASphereConverges)
       const Vec3& p = mesh.points[i];
       ASSERT_GE(distance[i], (p - source).norm() - 1e-12);
       worst =
-        std::max(worst, std::abs(distance[i] - std::acos(std::clamp(p.dot(source), -1.0, 1.0))));
+        Larger(worst, std::abs(distance[i] - std::acos(std::clamp(p.dot(source), -1.0, 1.0))));
     }
     EXPECT_LT(worst, 0.75 * last);
     last = worst;

@@ -113,6 +113,7 @@ TEST_P(AgainstHats, Poisson)
       SurfaceNorm(hats, mesh, Eigen::MatrixXd(reference.array() - reference.mean()));
     // Two second-order discretizations of a function that varies over about a tenth of the mesh.
     EXPECT_LT(error, depth == 6 ? 2e-2 : 1e-2) << depth;
+    // At depth 7 the error of the hat functions themselves can be the larger part.
     EXPECT_TRUE(depth == 6 || error < 1.05 * coarse) << coarse << " " << error;
     coarse = error;
   }

@@ -94,7 +94,7 @@ TEST(SurfaceDerivatives, OnAGridConvergeToThoseOfTheSphere)
   EXPECT_LT(fine.gradientOnTriangles, 0.03);
   EXPECT_LT(fine.laplacian, 0.05);
   EXPECT_LT(fine.gradient, 0.5 * coarse.gradient);
-  EXPECT_LT(fine.laplacian, 0.6 * coarse.laplacian);
+  EXPECT_LT(fine.laplacian, 0.35 * coarse.laplacian); // second order gives 0.25
 }
 
 TEST(SurfaceDerivatives, OnHatsConvergeToThoseOfTheSphere)
@@ -104,7 +104,7 @@ TEST(SurfaceDerivatives, OnHatsConvergeToThoseOfTheSphere)
   EXPECT_LT(fine.gradient, 0.02);
   EXPECT_LT(fine.laplacian, 0.05);
   EXPECT_LT(fine.gradient, 0.5 * coarse.gradient);
-  EXPECT_LT(fine.laplacian, 0.75 * coarse.laplacian); // a second derivative of linear functions
+  EXPECT_LT(fine.laplacian, 0.5 * coarse.laplacian); // a second derivative of linear functions
 }
 
 /// A linear function on a flat sheet with boundaries: the gradient is constant, the Laplacian 0 up
