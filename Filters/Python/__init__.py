@@ -32,7 +32,7 @@ except ImportError:
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
            "distance_matrix", "divergence", "farthest_points", "flow", "gaussian_field", "gradient",
-           "interpolate", "path", "poisson", "signatures",
+           "interpolate", "krige", "path", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -47,6 +47,23 @@ def arrays(mesh):
 
 def _solve(name, points, cells, given, properties, sources=()):
     return _solve_numbered(name, points, cells, given, _inputs.chosen(properties), sources)
+
+
+def _known(points, cells, ids, values):
+    """Returns the values at all points, NaN where they are unknown, and the ids as an array. Several
+    values at one point give their mean."""
+    ids = _inputs.ids("ids", ids)
+    values = numpy.atleast_1d(_inputs.numbers("values", values).astype(float))
+    if len(ids) != len(values):
+        raise Error(f"there are {len(ids)} ids and {len(values)} values")
+    points, cells = _inputs.checked(points, cells)
+    if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
+        raise Error(f"ids must be ids of the {len(points)} points, from 0")
+    known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
+    known[ids] = 0.0
+    numpy.add.at(known, ids, values)
+    known.T[..., ids] /= numpy.bincount(ids)[ids]
+    return known, ids
 
 
 def spectrum(points, cells, number=20, **properties):
@@ -186,30 +203,42 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
                   {**amount, "NumberOfSteps": 8, **properties})["Diffused"]
 
 
-def gaussian_field(points, cells, distance, number=1, **properties):
+def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0.0, **properties):
     """Samples random fields with mean 0 whose values at nearby points are alike (N, number).
 
     distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. Smoothness
     chooses between rough and smooth samples. Another Seed gives other samples. With Statistics the result
-    has two columns: mean and standard deviation of the samples.
+    has two columns: mean and standard deviation of the samples. values: observed values at the points with
+    these ids. Every sample agrees with them, and `krige` predicts from them. noise: the standard deviation
+    of the errors of the observations.
     """
-    return _solve("GaussianField", points, cells, {},
-                  {"Range": distance, "NumberOfSamples": number, **properties})["Samples"]
+    known = _known(points, cells, ids, values)[0] if len(_inputs.ids("ids", ids)) else None
+    return _solve("GaussianField", points, cells, {"values": known},
+                  {"Range": distance, "NumberOfSamples": number, "ObservationNoise": noise,
+                   **properties})["Samples"]
+
+
+def krige(points, cells, ids, values, distance, noise=0.0, number=100, **properties):
+    """Predicts a field everywhere from observed values at the points with the given ids (kriging).
+
+    distance: the Range in ParameterUnits; farther values hardly depend on each other. noise: the standard
+    deviation of the errors of the values. StandardDeviation is that of the field. Returns the
+    prediction (N), the standard deviation of its error (N), the leave-one-out errors (K), and the
+    logarithm of the likelihood of the values. A leave-one-out error is a value minus its prediction from
+    all others. The standard deviation is estimated from `number` samples. The likelihood compares
+    distances: the most likely one suits the values.
+    """
+    known, ids = _known(points, cells, ids, values)
+    results = _solve("GaussianField", points, cells, {"values": known},
+                     {"Range": distance, "ObservationNoise": noise, "NumberOfSamples": number,
+                      "Statistics": True, **properties})
+    return (results["Prediction"], results["PredictionStandardDeviation"],
+            results["LeaveOneOutError"][ids], results["LogLikelihood"][0])
 
 
 def interpolate(points, cells, ids, values, **properties):
     """Computes the smoothest function with the given values at the points with the given ids."""
-    ids = _inputs.ids("ids", ids)
-    values = numpy.atleast_1d(_inputs.numbers("values", values).astype(float))
-    if len(ids) != len(values):
-        raise Error(f"there are {len(ids)} ids and {len(values)} values")
-    points, cells = _inputs.checked(points, cells)
-    if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
-        raise Error(f"ids must be ids of the {len(points)} points, from 0")
-    known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
-    known[ids] = 0.0
-    numpy.add.at(known, ids, values)
-    known.T[..., ids] /= numpy.bincount(ids)[ids]  # the mean of several values at one point
+    known, _ = _known(points, cells, ids, values)
     return _solve(
         "HarmonicInterpolation", points, cells, {"values": known}, properties)["Interpolated"]
 

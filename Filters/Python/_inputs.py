@@ -79,6 +79,7 @@ def placed(name, values, points, cells):
 
 # The values of choices by name, in the order of their numbers.
 CHOICES = {
+    "Amount": ("Time", "FullWidth", "StandardDeviation"),
     "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),

@@ -1,18 +1,25 @@
 #include "vtkGaussianField.h"
 
+#include "Input/GivenValues.h"
+#include "Input/InputArray.h"
+#include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
 #include "Solvers/GaussianFieldSolver.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 
 #include <iomanip>
 #include <sstream>
+#include <string>
 
 vtkStandardNewMacro(vtkGaussianField);
 
@@ -31,11 +38,13 @@ std::string NameOfSample(gridfem::Id number)
 struct vtkGaussianField::Internals
 {
   gridfem::GaussianFieldSolver Solver;
+  const gridfem::GaussianFieldSolver::Result* Result = nullptr; // of this run
 };
 
-vtkGaussianField::vtkGaussianField() : Data(std::make_unique<Internals>())
+vtkGaussianField::vtkGaussianField()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(4);
   const gridfem::GaussianFieldSolver::Options defaults;
   this->Tolerance = defaults.equation.solve.tolerance;
   this->MaximumIterations = defaults.equation.solve.maximumIterations;
@@ -45,12 +54,47 @@ vtkGaussianField::vtkGaussianField() : Data(std::make_unique<Internals>())
 
 vtkGaussianField::~vtkGaussianField() = default;
 
+int vtkGaussianField::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port >= 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
+  }
+  return 1;
+}
+
+gridfem::GivenConstraints vtkGaussianField::FindObservations(vtkDataSet* places)
+{
+  gridfem::InputSurface& surface = this->State->Surface();
+  gridfem::GivenConstraints observations;
+  if (places)
+  {
+    const gridfem::InputArray array =
+      gridfem::FindArrayOfPlaces(this, places, "Observations", "Observation Array");
+    observations.find = [array, places, &surface]
+    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places, "Observations"); };
+    return observations;
+  }
+  const gridfem::InputArray array = surface.Find(0, "Observation Array");
+  if (!array.array)
+  {
+    return observations;
+  }
+  gridfem::RequirePointArray(array, "Observation Array", "");
+  const gridfem::InputArray mask = surface.Find(1, "Mask Array");
+  observations.find = [this, array, mask, &surface]
+  { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
+  return observations;
+}
+
 void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
   gridfem::GaussianFieldSolver::Options options;
   options.equation = state.options;
   options.range = this->Range;
@@ -59,27 +103,57 @@ void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVect
   options.seed = this->Seed;
   options.numberOfSamples = this->NumberOfSamples;
   options.statistics = this->Statistics;
+  options.observationNoise = this->ObservationNoise;
   const gridfem::GaussianFieldSolver::Result& result =
-    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
-
+    this->Data->Solver.Update(surface, { this->FindObservations(vtkDataSet::GetData(inputs[2])) },
+      options, { 0, state.GetProgress() });
+  this->Data->Result = &result;
   output->ShallowCopy(input);
-  vtkPointData* points = output->GetPointData();
-  for (gridfem::Id column = 0; column < result.atPoints.cols(); ++column)
-  {
-    const std::string name = !this->Statistics ? NameOfSample(column)
-                             : column == 0     ? "SampleMean"
-                                               : "SampleStandardDeviation";
-    points->AddArray(
-      gridfem::MakePointArray(name.c_str(), result.atPoints.col(column), VTK_DOUBLE));
-  }
-  points->SetActiveScalars(this->Statistics ? "SampleStandardDeviation" : "Sample000");
+  this->WriteResult(output);
   gridfem::AddReport(result.report, output);
   this->Warn(result.warnings);
+}
+
+void vtkGaussianField::WriteResult(vtkPolyData* output)
+{
+  const gridfem::GaussianFieldSolver::Result& result = *this->Data->Result;
+  const gridfem::GaussianFieldSolver::Prediction& prediction = result.prediction;
+  vtkPointData* points = output->GetPointData();
+  const auto add = [points](const std::string& name, const gridfem::MultiVector& values)
+  { points->AddArray(gridfem::MakePointArray(name.c_str(), values, VTK_DOUBLE)); };
+  const bool isPredicted = prediction.mean.size() > 0;
+  if (isPredicted)
+  {
+    add("Prediction", prediction.mean);
+    add("LeaveOneOutError", prediction.leaveOneOutError);
+    gridfem::AddFieldNumber(output, "LeaveOneOutRatio", prediction.leaveOneOutRatio);
+    gridfem::AddFieldNumber(output, "LogLikelihood", prediction.logLikelihood);
+  }
+  if (!this->Statistics)
+  {
+    for (gridfem::Id column = 0; column < result.atPoints.cols(); ++column)
+    {
+      add(NameOfSample(column), result.atPoints.col(column));
+    }
+    points->SetActiveScalars(isPredicted ? "Prediction" : "Sample000");
+  }
+  else if (isPredicted)
+  {
+    add("PredictionStandardDeviation", result.atPoints.col(1));
+    points->SetActiveScalars("Prediction");
+  }
+  else
+  {
+    add("SampleMean", result.atPoints.col(0));
+    add("SampleStandardDeviation", result.atPoints.col(1));
+    points->SetActiveScalars("SampleStandardDeviation");
+  }
 }
 
 void vtkGaussianField::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   *this->Data = Internals();
 }
 
@@ -92,4 +166,5 @@ void vtkGaussianField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
   os << indent << "Statistics: " << this->Statistics << "\n";
+  os << indent << "ObservationNoise: " << this->ObservationNoise << "\n";
 }

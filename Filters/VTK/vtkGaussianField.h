@@ -1,6 +1,7 @@
 /**
  * @class   vtkGaussianField
- * @brief   random fields on a surface whose values are alike at nearby points
+ * @brief   random fields on a surface whose values are alike at nearby points, and their prediction
+ *          from observations (kriging)
  *
  * Samples Gaussian random fields with mean 0 and Matérn covariance. Each field u solves
  *
@@ -14,13 +15,39 @@
  * Samples depend on Seed and on the functions. They do not depend on the number of threads. A
  * larger NumberOfSamples adds samples, and the first ones stay the same up to rounding.
  *
+ * With observations, such as temperatures at stations, the filter predicts the field at every point
+ * (kriging). The field then has a constant mean, which the filter finds, and the observations have
+ * errors of the standard deviation ObservationNoise. Samples agree with the observations and show
+ * what these leave open. There may be up to 4,000 observations. Each takes n + 1 solves, and eight
+ * are solved together.
+ *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ * Input port 2 (optional, `Observations`): any data set with points. Its values count at the
+ * nearest point of the surface that a polygon uses.
+ * Input port 3 (optional): vtkSelection of points or cells of port 0. A selected cell selects its
+ * points.
+ *
+ * SetInputArrayToProcess chooses arrays of one component:
+ * - index 0, `ObservationArray` (optional): point data of port 0. NaN is unknown. Without it and
+ *   without port 2 there are no observations.
+ * - index 1, `MaskArray` (optional): point data of port 0. Values are known where it is neither 0
+ *   nor NaN. With a mask or a selection, only masked and selected points have known values.
+ * - index 2 (optional): point data of port 2, if port 2 is connected. If none is chosen, the filter
+ *   takes the array of port 2 with the name of ObservationArray, or the active scalars if
+ *   ObservationArray is not chosen either. The MaskArray and the selection are not used then.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Sample000`, `Sample001` ..., one array for each sample.
  * - point data, double, with Statistics instead: `SampleMean` and `SampleStandardDeviation`.
+ * - with observations: point data, double: `Prediction`, the most likely field, and
+ *   `LeaveOneOutError` at the observed points: observation minus its prediction from all others.
+ *   NaN at other points. With Statistics, `PredictionStandardDeviation` is the standard deviation
+ *   of the error of Prediction. It has a relative standard error of 1 / sqrt(2 NumberOfSamples).
+ * - with observations: field data: `LeaveOneOutRatio` (double, 1), the root mean square of the
+ *   errors divided by their expected standard deviation, and `LogLikelihood` (double, 1) of the
+ *   observations. Good parameters give a ratio near 1 and a large likelihood.
  * - field data, of the worst solve: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`
  *   and `ConvergenceFactor`. Values are NaN at points that no polygon uses.
  *
@@ -31,6 +58,14 @@
 #define vtkGaussianField_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
+
+class vtkDataSet;
+
+namespace gridfem
+{
+class SelectedPoints;
+struct GivenConstraints;
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkGaussianField : public vtkSurfaceFEMAlgorithm
 {
@@ -84,11 +119,21 @@ public:
   ///@{
   /**
    * When on, the output has the mean and the standard deviation of the samples at every point,
-   * instead of the samples. This needs at least two samples. Default off.
+   * instead of the samples. With observations it has the standard deviation of the error of the
+   * prediction. This needs at least two samples. Default off.
    */
   vtkSetMacro(Statistics, bool);
   vtkGetMacro(Statistics, bool);
   vtkBooleanMacro(Statistics, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The standard deviation of the errors of observations. 0 or more, default 0. The least that is
+   * used is a thousandth of StandardDeviation.
+   */
+  vtkSetMacro(ObservationNoise, double);
+  vtkGetMacro(ObservationNoise, double);
   ///@}
 
   /**
@@ -96,10 +141,24 @@ public:
    */
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
+  /**
+   * The input of port 2: points with observations.
+   */
+  void SetObservationsConnection(vtkAlgorithmOutput* output)
+  {
+    this->SetInputConnection(2, output);
+  }
+
+  /**
+   * The input of port 3: a selection of the points with observations.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
+
 protected:
   vtkGaussianField();
   ~vtkGaussianField() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -109,13 +168,18 @@ protected:
   int Seed = 1;
   int NumberOfSamples = 1;
   bool Statistics = false;
+  double ObservationNoise = 0.0;
 
 private:
   vtkGaussianField(const vtkGaussianField&) = delete;
   void operator=(const vtkGaussianField&) = delete;
 
+  gridfem::GivenConstraints FindObservations(vtkDataSet* places);
+  void WriteResult(vtkPolyData* output);
+
   struct Internals;
   std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -26,26 +26,6 @@ vtkStandardNewMacro(vtkHarmonicInterpolation);
 namespace
 {
 
-/// Returns the array chosen for the second data set, or else the array chosen for the first data
-/// set, or else the active scalars.
-gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
-{
-  gridfem::InputArray array = gridfem::FindInputArray(algorithm, 2, values, "SourceArray");
-  if (!array.array)
-  {
-    array = gridfem::FindInputArray(algorithm, 0, values, "In the input Values, the Value Array");
-  }
-  vtkDataArray* scalars = values->GetPointData()->GetScalars();
-  if (!array.array && scalars)
-  {
-    array.array = scalars;
-    array.name = scalars->GetName() ? scalars->GetName() : "";
-  }
-  gridfem::RequirePointArray(
-    array, "Value Array", "The input Values has no active scalars to use instead.");
-  return array;
-}
-
 /// Whether values are known at some points, but not at all of them. A NaN makes a tuple unknown.
 bool KnowsSome(vtkDataArray* array)
 {
@@ -114,9 +94,9 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   gridfem::GivenConstraints values;
   if (places)
   {
-    array = FindArrayOf(this, places);
+    array = gridfem::FindArrayOfPlaces(this, places, "Values", "Value Array");
     values.find = [array, places, &surface]
-    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places); };
+    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places, "Values"); };
     return values;
   }
   array = FindValueArray(this, input);

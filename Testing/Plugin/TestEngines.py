@@ -128,6 +128,11 @@ class Engines(unittest.TestCase):
         for smoothness in (1, 2, 3):
             self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 3, Smoothness=smoothness, **o))
         self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 9, Statistics=True, Seed=5, **o))
+        self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 2, [0, 7], [3.0, 5.0], 0.1, **o))
+
+    def test_krige(self):
+        self.compare(lambda g, p, c, **o: g.krige(
+            p, c, [0, 7, len(p) // 2, 7], [1.0, 2.0, 5.0, 3.0], 0.3, 0.1, number=9, **o))
 
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
@@ -225,7 +230,7 @@ class Engines(unittest.TestCase):
                 self.assertAlmostEqual(areas(points, cells).sum(), expected, delta=1e-6)
 
     def test_choices_are_those_of_the_filters(self):
-        owners = {"FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
+        owners = {"Amount": "HeatDiffusion", "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
                   "FunctionSpace": "ScreenedPoisson", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
         choices = sys.modules["gridfem_core._inputs"].CHOICES

@@ -60,7 +60,9 @@ STARTS = {
     "ClipToOctree": [{}],
     "FarthestPoints": [{"NumberOfPoints": 4}],
     "GaussianField": [{"Range": 0.5, "NumberOfSamples": 3},
-                      {"Range": 0.5, "NumberOfSamples": 3, "Statistics": 1}],
+                      {"Range": 0.5, "NumberOfSamples": 3, "Statistics": 1},
+                      {"Range": 0.5, "NumberOfSamples": 3, "ObservationArray": [POINTS, "p_f"],
+                       "MaskArray": [POINTS, "p_mask"], "ObservationNoise": 0.3}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
                          {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
     "GeodesicPaths": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
@@ -236,11 +238,12 @@ class TestEveryProperty(unittest.TestCase):
         self.assertGreater(len(seen), 100)
 
     def test_further_inputs(self):
-        """The Basis, Sources, Values and Selection of a filter that were taken away do not count."""
+        """The Basis, Sources and other inputs of a filter that were taken away do not count."""
         points = simple.Sphere(Radius=1.0, ThetaResolution=5, PhiResolution=5)
         values = simple.Calculator(Input=points, ResultArrayName="v", Function="coordsX")
         others = {"Basis": simple.ConnectivityAwareBasis(Input=self.surface, Depth=3),
-                  "Sources": points, "Values": values, "Selection": plugin.selected_points(3, 40)}
+                  "Sources": points, "Values": values, "Observations": values,
+                  "Selection": plugin.selected_points(3, 40)}
         tried = 0
         for name in plugin.PROXIES:
             for start in STARTS[name]:

@@ -175,6 +175,27 @@ class Numpy(unittest.TestCase):
         with self.assertRaisesRegex(gridfem.Error, "Range"):
             gridfem.gaussian_field(*self.mesh, 0.0, **OPTIONS)
 
+    def test_prediction_from_values_at_some_points(self):
+        ids = numpy.random.default_rng(3).choice(len(self.points), 60, replace=False)
+        values = 20 + self.points[ids, 2]
+        options = {"ParameterUnits": 0, **OPTIONS}
+        mean, deviation, errors, likelihood = gridfem.krige(*self.mesh, ids, values, 1.0, 0.01, **options)
+        numpy.testing.assert_allclose(mean, 20 + self.points[:, 2], atol=0.2)
+        numpy.testing.assert_allclose(mean[ids], values, atol=0.03)
+        self.assertLess(deviation[ids].max(), 0.015)
+        self.assertGreater(deviation.max(), 0.1)
+        some = numpy.delete(numpy.arange(len(ids)), 3)
+        predicted = gridfem.krige(
+            *self.mesh, ids[some], values[some], 1.0, 0.01, number=2, **options)[0][ids[3]]
+        self.assertAlmostEqual(errors[3], values[3] - predicted, places=4)
+        samples = gridfem.gaussian_field(*self.mesh, 1.0, 3, ids, values, 0.01, **options)
+        numpy.testing.assert_allclose(samples[ids], values[:, None].repeat(3, 1), atol=0.06)
+        # A smooth wave is unlikely with a short range.
+        self.assertGreater(likelihood, gridfem.krige(
+            *self.mesh, ids, values, 0.3, 0.01, number=2, **options)[3])
+        with self.assertRaisesRegex(gridfem.Error, "there are 2 ids and 1 values"):
+            gridfem.krige(*self.mesh, [1, 2], [1.0], 1.0)
+
     def test_smoothing_by_a_width(self):
         time = 0.05
         expected = gridfem.diffuse(*self.mesh, self.points, time, ParameterUnits=0, **OPTIONS)

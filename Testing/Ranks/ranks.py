@@ -248,7 +248,7 @@ CHOICES = {
     "HeatDiffusion": {"NumberOfSteps": 2}}
 ARRAYS = {
     "ScreenedPoisson": ["f"], "StitchColors": ["f", "label"], "HeatDiffusion": ["f"],
-    "SurfaceGradient": ["f"], "HarmonicInterpolation": ["g"]}
+    "SurfaceGradient": ["f"], "HarmonicInterpolation": ["g"], "GaussianField": ["g"]}
 KEEP_NO_CELLS = ("ClipToOctree", "ConnectivityAwareBasis")
 
 

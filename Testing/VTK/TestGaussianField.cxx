@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -37,6 +38,25 @@ double RootMeanSquare(const std::vector<double>& values)
     sum += value * value;
   }
   return std::sqrt(sum / double(values.size()));
+}
+
+/// Adds observations of a wave at every 40th point, NaN at the others.
+vtkDoubleArray* AddObservations(vtkPolyData* surface)
+{
+  vtkDoubleArray* array = AddPointArray(surface, "observed", 1, &Wave);
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    if (point % 40 != 0)
+    {
+      array->SetValue(point, std::nan(""));
+    }
+  }
+  return array;
+}
+
+vtkPolyData* InputOf(vtkGaussianField* filter)
+{
+  return vtkPolyData::SafeDownCast(filter->GetInputDataObject(0, 0));
 }
 
 } // namespace
@@ -93,4 +113,104 @@ TEST(GaussianField, RefusesNoRangeAndWarnsOfAShortOne)
   filter->Update();
   ASSERT_EQ(messages.warnings.size(), 1u);
   EXPECT_NE(messages.warnings[0].find("Range is only"), std::string::npos);
+}
+
+TEST(GaussianField, PredictsFromObservations)
+{
+  auto filter = MakeFilter(2);
+  vtkPolyData* surface = InputOf(filter);
+  vtkDoubleArray* observed = AddObservations(surface);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "observed");
+  const std::vector<double> prediction = ArrayOf(filter, "Prediction");
+  const std::vector<double> error = ArrayOf(filter, "LeaveOneOutError");
+  const std::vector<double> samples[] = { ArrayOf(filter, "Sample000"),
+    ArrayOf(filter, "Sample001") };
+  std::vector<double> off; // of the prediction
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    const bool isObserved = !std::isnan(observed->GetValue(point));
+    ASSERT_EQ(std::isnan(error[point]), !isObserved);
+    off.push_back(prediction[point] - Wave(Vec3(surface->GetPoint(point)), 0));
+    for (const std::vector<double>& values : { prediction, samples[0], samples[1] })
+    {
+      if (isObserved)
+      {
+        ASSERT_NEAR(values[point], observed->GetValue(point), 0.01);
+      }
+    }
+  }
+  EXPECT_LT(RootMeanSquare(off), 0.45); // the wave itself has 0.9
+  EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "Prediction");
+  EXPECT_GT(FieldValue(filter->GetOutputDataObject(0), "LeaveOneOutRatio"), 0.0);
+  // Other values and another noise need no other covariances.
+  filter->SetObservationNoise(0.5);
+  EXPECT_NE(ArrayOf(filter, "Prediction"), prediction);
+  filter->SetObservationNoise(0.0);
+  observed->SetValue(0, 9.0);
+  observed->Modified();
+  EXPECT_NEAR(ArrayOf(filter, "Prediction")[0], 9.0, 0.05);
+  EXPECT_EQ(filter->GetNumberOfRuns("RightHandSide"), 1);
+  filter->StatisticsOn();
+  EXPECT_LT(ArrayOf(filter, "PredictionStandardDeviation")[40], 0.01);
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Sample000"));
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "(None)");
+  EXPECT_EQ(ArrayOf(filter, "SampleMean").size(), prediction.size());
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Prediction"));
+}
+
+/// A mask, and the points of a second input, give the same observations as NaN at all others.
+TEST(GaussianField, TakesObservationsFromAMaskOrFromPlaces)
+{
+  auto filter = MakeFilter(1);
+  vtkPolyData* surface = InputOf(filter);
+  vtkDoubleArray* observed = AddObservations(surface);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "observed");
+  const std::vector<double> expected = ArrayOf(filter, "Prediction");
+
+  AddPointArray(surface, "all", 1, &Wave);
+  vtkDoubleArray* mask = AddPointArray(surface, "mask", 1, [](const Vec3&, int) { return 0.0; });
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("there");
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    if (!std::isnan(observed->GetValue(point)))
+    {
+      mask->SetValue(point, 1.0);
+      places->InsertNextPoint(surface->GetPoint(point));
+      values->InsertNextValue(observed->GetValue(point));
+    }
+  }
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "all");
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "mask");
+  EXPECT_EQ(ArrayOf(filter, "Prediction"), expected);
+
+  vtkNew<vtkPolyData> stations;
+  stations->SetPoints(places);
+  stations->GetPointData()->SetScalars(values);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "(None)");
+  filter->SetInputDataObject(2, stations);
+  const std::vector<double> found = ArrayOf(filter, "Prediction");
+  for (std::size_t point = 0; point < expected.size(); ++point)
+  {
+    ASSERT_NEAR(found[point], expected[point], 1e-5); // coordinates of places are floats
+  }
+}
+
+TEST(GaussianField, RefusesObservationsThatItCannotUse)
+{
+  auto filter = MakeFilter(1);
+  vtkPolyData* surface = InputOf(filter);
+  AddPointArray(surface, "none", 1, [](const Vec3&, int) { return std::nan(""); });
+  AddPointArray(surface, "two", 2, &Wave);
+  const Messages messages(filter);
+  for (const auto& [name, reason] :
+    { std::pair("none", "is known"), std::pair("two", "2 components") })
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, Points, name);
+    const std::size_t before = messages.errors.size();
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), before + 1);
+    EXPECT_NE(messages.errors.back().find(reason), std::string::npos) << messages.errors.back();
+  }
 }

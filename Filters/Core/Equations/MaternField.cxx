@@ -3,6 +3,7 @@
 #include "Base/Errors.h"
 #include "Spaces/RandomLoads.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -28,19 +29,17 @@ MaternField::MaternField(
     BuildMultigrid(*space_, options.kappa * options.kappa, 1.0, options.multigrid, job.progress));
 }
 
-FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const Job& job) const
+FieldSamples MaternField::Solve(
+  MultiVector load, int solves, double tolerance, const Job& job) const
 {
   const double weight = options_.kappa * options_.kappa;
-  const bool isOdd = options_.smoothness == 2; // an odd power of the root of the operator
-  const int solves = options_.smoothness == 1 ? 1 : 2;
-  MultiVector load = RandomLoads(
-    *space_, isOdd ? weight : 1.0, isOdd ? 1.0 : 0.0, seed, first, count, job.Part(0.0, 0.2));
-  const PoissonOptions options{ options_, weight };
+  PoissonOptions options{ options_, weight };
+  options.solve.tolerance = tolerance;
   FieldSamples samples;
   for (int k = 0; k < solves; ++k)
   {
     PoissonSolution solution = SolvePoisson(*space_, *multigrid_, load / weight, {}, options,
-      job.progress.Part(0.2 + 0.8 * k / solves, 0.2 + 0.8 * (k + 1) / solves));
+      job.progress.Part(double(k) / solves, double(k + 1) / solves));
     if (k + 1 < solves)
     {
       Multiply(mass_, solution.coefficients, load, job.threads);
@@ -55,9 +54,32 @@ FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const J
     }
     samples.coefficients = std::move(solution.coefficients);
   }
+  return samples;
+}
+
+double MaternField::Scale() const
+{
   const double pi = std::acos(-1.0);
-  samples.coefficients *=
-    std::sqrt(4.0 * pi * options_.smoothness) * std::pow(options_.kappa, options_.smoothness);
+  return std::sqrt(4.0 * pi * options_.smoothness) * std::pow(options_.kappa, options_.smoothness);
+}
+
+FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const Job& job) const
+{
+  const bool isOdd = options_.smoothness == 2; // an odd power of the root of the operator
+  FieldSamples samples =
+    this->Solve(RandomLoads(*space_, isOdd ? options_.kappa * options_.kappa : 1.0,
+                  isOdd ? 1.0 : 0.0, seed, first, count, job.Part(0.0, 0.2)),
+      options_.smoothness == 1 ? 1 : 2, options_.solve.tolerance, job.Part(0.2, 1.0));
+  samples.coefficients *= this->Scale();
+  return samples;
+}
+
+FieldSamples MaternField::Covariances(MultiVector load, const Job& job) const
+{
+  constexpr double Tolerance = 1e-9; // dense systems of covariances amplify errors
+  FieldSamples samples = this->Solve(
+    std::move(load), options_.smoothness + 1, std::min(options_.solve.tolerance, Tolerance), job);
+  samples.coefficients *= this->Scale() * this->Scale();
   return samples;
 }
 

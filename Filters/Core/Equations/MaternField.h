@@ -19,7 +19,7 @@ struct MaternOptions : EquationOptions
 
 struct FieldSamples
 {
-  MultiVector coefficients; // rows = functions, one column per sample
+  MultiVector coefficients; // rows = functions, one column per sample or load
   SolveReport report;       // of the worst solve
 };
 
@@ -43,7 +43,19 @@ public:
   /// threads. Throws Aborted.
   FieldSamples Sample(std::uint64_t seed, Id first, Id count, const Job& job = {}) const;
 
+  /// Returns S b for the covariance S of the coefficients of Sample. If the load b is the row of a
+  /// point, S b has the covariances of all coefficients with the field at this point. It takes
+  /// ν + 1 solves, to a tolerance of 1e-9 or less. Same bits for any number of threads. Throws
+  /// InvalidInput unless the load has a row for each function, and Aborted.
+  FieldSamples Covariances(MultiVector load, const Job& job = {}) const;
+
 private:
+  /// Solves with K several times, and multiplies by M in between.
+  FieldSamples Solve(MultiVector load, int solves, double tolerance, const Job& job) const;
+
+  /// Makes the variance 1.
+  double Scale() const;
+
   std::shared_ptr<const FiniteElementSpace> space_;
   MaternOptions options_;
   SparseMatrix mass_;

@@ -1,11 +1,16 @@
 #include "Solvers/GaussianFieldSolver.h"
 
 #include "Base/Errors.h"
+#include "Base/NormalNumbers.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -17,12 +22,16 @@ namespace
 /// Samples that are solved together. They fill the lanes of a vector instruction.
 constexpr Id SamplesAtOnce = 8;
 
-void RequireSampling(const GaussianFieldSolver::Options& options)
+void RequireSampling(const GaussianFieldSolver::Options& options, bool isObserved)
 {
   RequireOptions(options);
   if (options.range == 0.0)
   {
     throw InvalidInput("Range is 0. It must be above 0.");
+  }
+  if (isObserved && options.standardDeviation == 0.0)
+  {
+    throw InvalidInput("Standard Deviation is 0. It must be above 0 to predict from observations.");
   }
   if (options.statistics && options.numberOfSamples < 2)
   {
@@ -71,7 +80,92 @@ struct Sums
     result.col(1) = (squares.isNaN().select(squares, squares.max(0.0)) / (samples - 1)).sqrt();
     return result;
   }
+
+  /// The standard deviation of samples whose mean is known to be 0.
+  Eigen::VectorXd DeviationFromZero(int samples) const { return (second.array() / samples).sqrt(); }
 };
+
+/// Removes points that no function reaches.
+PointValues Reached(const PointValues& values, const std::vector<char>& isReached)
+{
+  PointValues reached;
+  reached.values.resize(values.values.rows(), values.values.cols());
+  for (std::size_t k = 0; k < values.points.size(); ++k)
+  {
+    if (isReached[values.points[k]])
+    {
+      reached.values.row(static_cast<Id>(reached.points.size())) =
+        values.values.row(static_cast<Id>(k));
+      reached.points.push_back(values.points[k]);
+    }
+  }
+  reached.values.conservativeResize(static_cast<Id>(reached.points.size()), Eigen::NoChange);
+  return reached;
+}
+
+void RequireObservations(const PointValues& observed)
+{
+  if (observed.values.cols() != 1)
+  {
+    throw InvalidInput("The observations have " + std::to_string(observed.values.cols()) +
+                       " components. Gaussian Field predicts one.");
+  }
+  if (observed.points.empty())
+  {
+    throw InvalidInput("No observation is at a point of the surface.");
+  }
+  constexpr Id Most = GaussianFieldSolver::MostObservations;
+  if (observed.values.rows() > Most)
+  {
+    throw InvalidInput("There are " + std::to_string(observed.values.rows()) +
+                       " observations. Gaussian Field can use up to " + std::to_string(Most) +
+                       ". Choose fewer points by a Mask Array, or put NaN at the others.");
+  }
+}
+
+/// Returns a number for the noise of each observed point. It depends on the place, so that the
+/// order of the mesh changes no sample, and differs for several observations of one place.
+std::vector<std::uint64_t> NumbersOfPlaces(const TriangleMesh& mesh, const std::vector<Id>& points)
+{
+  std::map<std::uint64_t, std::uint64_t> count;
+  std::vector<std::uint64_t> numbers;
+  for (const Id point : points)
+  {
+    std::uint64_t number = 0;
+    for (const double coordinate : mesh.points[point])
+    {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &coordinate, sizeof(bits));
+      number = NormalNumbers::Mixed(number + bits);
+    }
+    numbers.push_back(NormalNumbers::Mixed(number + count[number]++) / 2);
+  }
+  return numbers;
+}
+
+double NoiseOf(const GaussianFieldSolver::Options& options)
+{
+  return std::max(
+    options.observationNoise, GaussianFieldSolver::LeastNoise * options.standardDeviation);
+}
+
+/// Normal numbers for the errors of observations: a column for each sample.
+MultiVector Noise(
+  const std::vector<std::uint64_t>& numbers, std::uint64_t seed, Id firstSample, Id count)
+{
+  MultiVector noise(static_cast<Id>(numbers.size()), count);
+  for (Id c = 0; c < count; ++c)
+  {
+    // Another seed than that of the fields.
+    const NormalNumbers series(
+      NormalNumbers::Mixed(seed), static_cast<std::uint64_t>(firstSample + c));
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+    {
+      noise(static_cast<Id>(k), c) = series.Pair(numbers[k])[0];
+    }
+  }
+  return noise;
+}
 
 } // namespace
 
@@ -83,17 +177,34 @@ SurfaceOptions GaussianFieldSolver::SurfaceDefaults()
 }
 
 const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
-  Surface& surface, const Options& options, const Job& job)
+  Surface& surface, const Input& input, const Options& options, const Job& job)
 {
-  RequireSampling(options);
-  surface.Prepare(job.progress.Part(0.0, 0.3));
+  RequireSampling(options, static_cast<bool>(input.observations));
+  surface.Prepare(job.progress.Part(0.0, 0.2));
   RequireFirstDegree(surface.UsedOptions().choice.kind, "Random fields");
-  this->UpdateField(surface, options, { surface.Threads(), job.progress.Part(0.3, 0.4) });
+  this->UpdateField(surface, options, { surface.Threads(), job.progress.Part(0.2, 0.3) });
+  this->TakeObservations(surface, input);
+  this->UpdateCovariances(surface, { surface.Threads(), job.progress.Part(0.3, 0.6) });
+  Stages& stages = surface.GetStages();
   StageKey key = KeyOfOptions(options);
-  key.Add(surface.GetStages().Version(HierarchyStage));
-  surface.GetStages().Run(SolveStage, key,
-    [&] {
-      this->Sample(surface, options, { surface.Threads(), job.progress.Part(0.4, 1.0) });
+  key.Add(stages.Version(HierarchyStage)).Add(observed_.points);
+  for (Id row = 0; row < observed_.values.rows(); ++row)
+  {
+    key.Add(observed_.values(row, 0));
+  }
+  const Job ofSolves{ surface.Threads(), job.progress.Part(covariances_ ? 0.6 : 0.3, 1.0) };
+  stages.Run(SolveStage, key,
+    [&]
+    {
+      result_ = {};
+      result_.report.converged = true; // so far
+      result_.report.end = SolveEnd::Converged;
+      weights_.reset();
+      if (covariances_)
+      {
+        this->Predict(surface, options, ofSolves.Part(0.0, 0.1));
+      }
+      this->Sample(surface, options, ofSolves.Part(covariances_ ? 0.1 : 0.0, 1.0));
     });
   job.Check(1.0);
   return result_;
@@ -114,46 +225,129 @@ void GaussianFieldSolver::UpdateField(
   surface.GetStages().Run(HierarchyStage, key,
     [&]
     {
-      field_.reset(); // frees its memory first
+      covariances_.reset(); // frees their memory first
+      field_.reset();
       field_ = std::make_unique<const MaternField>(surface.WholeSpace(), ofField, job);
       warnings_ = WarningsOfResolution(
         range, std::sqrt(surface.Area() / double(surface.Space().NumberOfFunctions(0))));
     });
 }
 
+void GaussianFieldSolver::TakeObservations(const Surface& surface, const Input& input)
+{
+  observed_ = {};
+  if (input.observations)
+  {
+    observed_ = Reached(input.observations.find(), surface.PointsWithFunctions());
+    RequireObservations(observed_);
+  }
+  noiseNumbers_ = NumbersOfPlaces(surface.Mesh(), observed_.points);
+}
+
+void GaussianFieldSolver::UpdateCovariances(const Surface& surface, const Job& job)
+{
+  Stages& stages = surface.GetStages();
+  if (observed_.points.empty())
+  {
+    covariances_.reset();
+    stages.Forget(RightHandSideStage);
+    return;
+  }
+  StageKey key;
+  key.Add(stages.Version(HierarchyStage)).Add(observed_.points);
+  stages.Run(RightHandSideStage, key,
+    [&]
+    {
+      covariances_.reset(); // frees their memory first
+      covariances_ = std::make_unique<const PointCovariances>(
+        *field_, surface.WholeSpace()->RowsAtPoints(observed_.points), job);
+    });
+}
+
+void GaussianFieldSolver::Predict(const Surface& surface, const Options& options, const Job& job)
+{
+  const double variance = options.standardDeviation * options.standardDeviation;
+  const double noise = NoiseOf(options);
+  Eigen::MatrixXd covariance = variance * covariances_->BetweenPoints();
+  covariance.diagonal().array() += noise * noise;
+  weights_ = std::make_unique<const KrigingWeights>(std::move(covariance));
+  const KrigingWeights::Prediction weights = weights_->Of(observed_.values);
+  FieldSamples deviation = covariances_->ToCoefficients(variance * weights.weights, job);
+  Prediction& prediction = result_.prediction;
+  prediction.mean = surface.ValuesAtPoints(deviation.coefficients).col(0).array() + weights.mean[0];
+  const KrigingWeights::LeaveOneOut others = weights_->Validate(observed_.values.col(0));
+  prediction.leaveOneOutError.setConstant(
+    prediction.mean.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < observed_.points.size(); ++k)
+  {
+    prediction.leaveOneOutError[observed_.points[k]] = others.error[static_cast<Id>(k)];
+  }
+  prediction.leaveOneOutRatio = others.ratio;
+  prediction.logLikelihood = weights_->LogLikelihood(observed_.values.col(0));
+  KeepWorse(covariances_->Report(), result_.report);
+  KeepWorse(std::move(deviation.report), result_.report);
+}
+
+/// Returns samples of mean 0. With observations, they are samples of the error of the prediction: a
+/// free sample minus its prediction from its own noisy values at the observed points. [Matheron:
+/// The intrinsic random functions and their applications, 1973]
+MultiVector GaussianFieldSolver::SomeSamples(
+  const Surface& surface, const Options& options, Id first, Id count, const Job& job)
+{
+  const auto seed = static_cast<std::uint64_t>(options.seed);
+  FieldSamples samples =
+    field_->Sample(seed, first, count, job.Part(0.0, covariances_ ? 0.5 : 1.0));
+  KeepWorse(std::move(samples.report), result_.report);
+  MultiVector& coefficients = samples.coefficients;
+  coefficients *= options.standardDeviation;
+  if (!covariances_)
+  {
+    return surface.ValuesAtPoints(coefficients);
+  }
+  const KrigingWeights::Prediction weights =
+    weights_->Of(covariances_->AtPoints(coefficients, job.threads) +
+                 NoiseOf(options) * Noise(noiseNumbers_, seed, first, count));
+  const double variance = options.standardDeviation * options.standardDeviation;
+  FieldSamples deviation =
+    covariances_->ToCoefficients(variance * weights.weights, job.Part(0.5, 1.0));
+  KeepWorse(std::move(deviation.report), result_.report);
+  coefficients -= deviation.coefficients;
+  return surface.ValuesAtPoints(coefficients).rowwise() - weights.mean;
+}
+
 void GaussianFieldSolver::Sample(const Surface& surface, const Options& options, const Job& job)
 {
-  result_ = {};
+  const Eigen::VectorXd& mean = result_.prediction.mean;
   Sums sums;
   const Id all = options.numberOfSamples;
   for (Id first = 0; first < all; first += SamplesAtOnce)
   {
     const Id count = std::min(SamplesAtOnce, all - first);
-    FieldSamples samples = field_->Sample(static_cast<std::uint64_t>(options.seed), first, count,
+    MultiVector values = this->SomeSamples(surface, options, first, count,
       job.Part(double(first) / double(all), double(first + count) / double(all)));
-    const MultiVector values =
-      options.standardDeviation * surface.ValuesAtPoints(samples.coefficients);
-    if (first == 0)
-    {
-      result_.report = std::move(samples.report);
-      result_.atPoints.resize(values.rows(), options.statistics ? 0 : all);
-    }
-    else
-    {
-      KeepWorse(std::move(samples.report), result_.report);
-    }
     if (options.statistics)
     {
       sums.Add(values);
+      continue;
     }
-    else
+    if (covariances_)
     {
-      result_.atPoints.middleCols(first, count) = values;
+      values.colwise() += mean;
     }
+    if (first == 0)
+    {
+      result_.atPoints.resize(values.rows(), all);
+    }
+    result_.atPoints.middleCols(first, count) = values;
   }
   if (options.statistics)
   {
     result_.atPoints = sums.Statistics(options.numberOfSamples);
+  }
+  if (options.statistics && covariances_)
+  {
+    result_.atPoints.col(0) = mean;
+    result_.atPoints.col(1) = sums.DeviationFromZero(options.numberOfSamples);
   }
   result_.warnings = warnings_;
   if (!result_.report.converged)
@@ -163,12 +357,12 @@ void GaussianFieldSolver::Sample(const Surface& surface, const Options& options,
 }
 
 GaussianFieldSolver::Result GaussianFieldSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
-  const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
+  const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
   Stages stages;
   LocalSurface surface(stages, std::move(mesh), surfaceOptions);
   GaussianFieldSolver solver;
-  solver.Update(surface, options, job);
+  solver.Update(surface, input, options, job);
   return std::move(solver.result_);
 }
 

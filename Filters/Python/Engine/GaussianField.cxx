@@ -10,9 +10,24 @@ namespace
 Results GaussianFieldResults(const Given& given, const SurfaceOptions& surface,
   const GaussianFieldSolver::Options& options, const Job& job)
 {
+  GaussianFieldSolver::Input input;
+  if (given.Find("values"))
+  {
+    input.observations.find = [&given] { return given.KnownValues(nullptr); };
+  }
   GaussianFieldSolver::Result result =
-    GaussianFieldSolver::Solve(given.mesh, options, surface, job);
+    GaussianFieldSolver::Solve(given.mesh, input, options, surface, job);
   Results results;
+  if (input.observations)
+  {
+    results.arrays["Prediction"] = result.prediction.mean;
+    results.arrays["LeaveOneOutError"] = result.prediction.leaveOneOutError;
+    results.arrays["LogLikelihood"] = MultiVector::Constant(1, 1, result.prediction.logLikelihood);
+    if (options.statistics)
+    {
+      results.arrays["PredictionStandardDeviation"] = result.atPoints.col(1);
+    }
+  }
   results.arrays["Samples"] = std::move(result.atPoints);
   results.warnings = std::move(result.warnings);
   return results;

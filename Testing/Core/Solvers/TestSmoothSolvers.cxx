@@ -105,6 +105,6 @@ TEST_F(SmoothSolvers, RefuseDistancesAndHeldValues)
 
 TEST_F(SmoothSolvers, RefuseRandomFields)
 {
-  EXPECT_THROW(
-    GaussianFieldSolver::Solve(mesh, GaussianFieldSolver::Options(), SmoothAt(3)), InvalidInput);
+  EXPECT_THROW(GaussianFieldSolver::Solve(mesh, {}, GaussianFieldSolver::Options(), SmoothAt(3)),
+    InvalidInput);
 }

@@ -7,6 +7,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkPointData.h"
 
 #include <cmath>
 #include <sstream>
@@ -142,14 +143,34 @@ PointValues KnownValues(const InputArray& array, const InputArray& mask,
   return given;
 }
 
-PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places)
+InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const std::string& input,
+  const std::string& property)
+{
+  InputArray array = FindInputArray(algorithm, 2, places, "SourceArray");
+  if (!array.array)
+  {
+    array = FindInputArray(algorithm, 0, places, "In the input " + input + ", the " + property);
+  }
+  vtkDataArray* scalars = places->GetPointData()->GetScalars();
+  if (!array.array && scalars)
+  {
+    array.array = scalars;
+    array.name = scalars->GetName() ? scalars->GetName() : "";
+  }
+  RequirePointArray(
+    array, property, "The input " + input + " has no active scalars to use instead.");
+  return array;
+}
+
+PointValues ValuesOfPlaces(
+  const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places, const std::string& input)
 {
   if (places->GetNumberOfPoints() == 0)
   {
-    throw InvalidInput("The input Values has no points.");
+    throw InvalidInput("The input " + input + " has no points.");
   }
   PointValues given;
-  given.points = NearestPoints(mesh, places, "Values");
+  given.points = NearestPoints(mesh, places, input);
   given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
   for (Id row = 0; row < given.values.rows(); ++row)
   {

@@ -40,9 +40,18 @@ PointValues TypedValues(
 /// Throws InvalidInput if no value is known.
 void RequireKnown(bool isAnyKnown, const InputArray& array);
 
+/// Returns the point array that index 2 chooses for a data set of places with values, or else its
+/// array with the name that index 0 chooses, or else its active scalars. Throws InvalidInput if
+/// there is none.
+/// @param input, property  names of the input and of the array of index 0, for messages
+InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const std::string& input,
+  const std::string& property);
+
 /// Returns the values of all points of a data set, each at the nearest mesh point that a triangle
 /// uses. Throws InvalidInput if there are none or one is not finite.
-PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
+/// @param input  its name for messages
+PointValues ValuesOfPlaces(
+  const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places, const std::string& input);
 
 } // namespace gridfem
 

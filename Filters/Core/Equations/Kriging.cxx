@@ -1,0 +1,122 @@
+#include "Equations/Kriging.h"
+
+#include "Base/Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Columns that are solved together. They fill the lanes of a vector instruction.
+constexpr Id ColumnsAtOnce = 8;
+
+/// Points whose vectors are kept. They take as much memory as a hierarchy.
+constexpr Index MostKept = 256;
+
+} // namespace
+
+PointCovariances::PointCovariances(const MaternField& field, SparseMatrix rows, const Job& job)
+  : field_(field), rows_(std::move(rows)), loads_(Transpose(rows_, job.threads))
+{
+  const Id points = rows_.rows;
+  betweenPoints_.resize(points, points);
+  toCoefficients_.resize(loads_.rows, points <= MostKept ? points : 0);
+  for (Id first = 0; first < points; first += ColumnsAtOnce)
+  {
+    const Id count = std::min(ColumnsAtOnce, points - first);
+    MultiVector unit = MultiVector::Zero(points, count);
+    unit.middleRows(first, count).setIdentity();
+    MultiVector load;
+    Multiply(loads_, unit, load, job.threads);
+    FieldSamples columns = field_.Covariances(std::move(load),
+      job.Part(double(first) / double(points), double(first + count) / double(points)));
+    betweenPoints_.middleCols(first, count) = this->AtPoints(columns.coefficients, job.threads);
+    if (toCoefficients_.cols() > 0)
+    {
+      toCoefficients_.middleCols(first, count) = columns.coefficients;
+    }
+    if (first == 0)
+    {
+      report_ = std::move(columns.report);
+    }
+    else
+    {
+      KeepWorse(std::move(columns.report), report_);
+    }
+  }
+  betweenPoints_ = 0.5 * (betweenPoints_ + betweenPoints_.transpose()).eval();
+}
+
+FieldSamples PointCovariances::ToCoefficients(const MultiVector& weights, const Job& job) const
+{
+  if (toCoefficients_.cols() > 0)
+  {
+    return { toCoefficients_ * weights, report_ };
+  }
+  MultiVector load;
+  Multiply(loads_, weights, load, job.threads);
+  return field_.Covariances(std::move(load), job);
+}
+
+MultiVector PointCovariances::AtPoints(const MultiVector& coefficients, int threads) const
+{
+  MultiVector values;
+  Multiply(rows_, coefficients, values, threads);
+  return values;
+}
+
+KrigingWeights::KrigingWeights(Eigen::MatrixXd covariance) : factor_(std::move(covariance))
+{
+  if (factor_.info() != Eigen::Success || factor_.matrixLLT().hasNaN())
+  {
+    throw InvalidInput("The covariances of the observations are not positive definite. A smaller "
+                       "Tolerance makes them more accurate. A larger Observation Noise, or "
+                       "observations that are farther apart, need less accuracy.");
+  }
+  ones_ = factor_.solve(Eigen::VectorXd::Ones(factor_.rows()));
+}
+
+KrigingWeights::Prediction KrigingWeights::Of(const MultiVector& observations) const
+{
+  Prediction prediction;
+  prediction.mean = ones_.transpose() * observations / ones_.sum();
+  prediction.weights = factor_.solve(Eigen::MatrixXd(observations.rowwise() - prediction.mean));
+  return prediction;
+}
+
+/// With P = C⁻¹ - C⁻¹ 1 1ᵀ C⁻¹ / 1ᵀ C⁻¹ 1, the errors are (P y)_i / P_ii of variance 1 / P_ii.
+KrigingWeights::LeaveOneOut KrigingWeights::Validate(const Eigen::VectorXd& observations) const
+{
+  const Eigen::MatrixXd root =
+    factor_.matrixL().solve(Eigen::MatrixXd::Identity(factor_.rows(), factor_.rows()));
+  const Eigen::ArrayXd diagonal =
+    root.colwise().squaredNorm().transpose().array() - ones_.array().square() / ones_.sum();
+  // A single observation says nothing about itself: its P is 0 up to rounding.
+  const bool isSingle = observations.size() < 2;
+  LeaveOneOut result;
+  result.error = this->Of(observations).weights.col(0).array() / diagonal;
+  result.deviation = diagonal.rsqrt();
+  if (isSingle)
+  {
+    result.error.setConstant(std::nan(""));
+    result.deviation.setConstant(std::nan(""));
+  }
+  result.ratio = std::sqrt((result.error.array() / result.deviation.array()).square().mean());
+  return result;
+}
+
+double KrigingWeights::LogLikelihood(const Eigen::VectorXd& observations) const
+{
+  const double pi = std::acos(-1.0);
+  const Prediction prediction = this->Of(observations);
+  const double squares =
+    prediction.weights.col(0).dot((observations.array() - prediction.mean[0]).matrix());
+  const double logOfDeterminant = 2.0 * factor_.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (squares + logOfDeterminant + double(observations.size()) * std::log(2.0 * pi));
+}
+
+} // namespace gridfem
