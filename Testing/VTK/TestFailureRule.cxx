@@ -62,12 +62,12 @@ int PowerOfLength(const std::string& array)
   static const std::map<std::string, int> powers = { { "Bending", 0 }, { "Diffused", 0 },
     { "Displacement", 1 }, { "Distance", 1 }, { "ConformalFactor", 0 }, { "Filtered", 0 },
     { "GaussianCurvature", -2 }, { "Gradient", -1 }, { "HeatKernelSignature", 0 },
-    { "Interpolated", 0 }, { "Laplacian", -2 }, { "MaximumCurvature", -1 },
-    { "MaximumCurvatureDirection", 0 }, { "MeanCurvature", -1 }, { "MinimumCurvature", -1 },
-    { "MinimumCurvatureDirection", 0 }, { "Mode", -1 }, { "NearestPoint", 0 },
-    { "NormalDisplacement", 1 }, { "PathId", 0 }, { "QuasiConformalError", 0 }, { "Sample000", 0 },
-    { "ShapeIndex", 0 }, { "Signature", 0 }, { "Solution", 0 }, { "StitchedColors", 0 },
-    { "WaveKernelSignature", 0 } };
+    { "Interpolated", 0 }, { "Laplacian", -2 }, { "LeaveOneOutError", 0 },
+    { "MaximumCurvature", -1 }, { "MaximumCurvatureDirection", 0 }, { "MeanCurvature", -1 },
+    { "MinimumCurvature", -1 }, { "MinimumCurvatureDirection", 0 }, { "Mode", -1 },
+    { "NearestPoint", 0 }, { "NormalDisplacement", 1 }, { "PathId", 0 }, { "Prediction", 0 },
+    { "QuasiConformalError", 0 }, { "Sample000", 0 }, { "ShapeIndex", 0 }, { "Signature", 0 },
+    { "Solution", 0 }, { "StitchedColors", 0 }, { "WaveKernelSignature", 0 } };
   const auto found = powers.find(array);
   EXPECT_TRUE(found != powers.end()) << array << " has no unit in this test";
   return found == powers.end() ? 0 : found->second;

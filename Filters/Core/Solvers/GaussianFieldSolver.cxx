@@ -123,8 +123,8 @@ void RequireObservations(const PointValues& observed)
   }
 }
 
-/// Returns a number for the noise of each observed point. It depends on the place, so that the
-/// order of the mesh changes no sample, and differs for several observations of one place.
+/// Returns a number for the noise of each observed point. It depends on the coordinates, so that
+/// the order of the mesh changes no sample, and differs for several observations of one place.
 std::vector<std::uint64_t> NumbersOfPlaces(const TriangleMesh& mesh, const std::vector<Id>& points)
 {
   std::map<std::uint64_t, std::uint64_t> count;
@@ -143,6 +143,7 @@ std::vector<std::uint64_t> NumbersOfPlaces(const TriangleMesh& mesh, const std::
   return numbers;
 }
 
+/// The standard deviation of errors in the covariance.
 double NoiseOf(const GaussianFieldSolver::Options& options)
 {
   return std::max(
@@ -306,7 +307,7 @@ MultiVector GaussianFieldSolver::SomeSamples(
   }
   const KrigingWeights::Prediction weights =
     weights_->Of(covariances_->AtPoints(coefficients, job.threads) +
-                 NoiseOf(options) * Noise(noiseNumbers_, seed, first, count));
+                 options.observationNoise * Noise(noiseNumbers_, seed, first, count));
   const double variance = options.standardDeviation * options.standardDeviation;
   FieldSamples deviation =
     covariances_->ToCoefficients(variance * weights.weights, job.Part(0.5, 1.0));
