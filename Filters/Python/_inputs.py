@@ -1,7 +1,5 @@
 """Converts meshes of other libraries, and checks arrays."""
 
-import re
-
 import numpy
 
 
@@ -98,14 +96,6 @@ def chosen(properties):
                 raise Error(f"{name} = {value!r}: must be one of {', '.join(CHOICES[name])}")
             numbered[name] = CHOICES[name].index(value)
     return numbered
-
-
-def require_range(name, value, least, most):
-    """Raises Error for a number outside of [least, most]. NaN passes: the solver refuses it."""
-    if value < least or value > most:
-        label = re.sub("(?<=[a-z])(?=[A-Z])", " ", name)
-        bounds = f"{least:g} or more" if most > 1e9 else f"from {least:g} to {most:g}"
-        raise Error(f"{label} is {value:g}; it must be {bounds}.")
 
 
 def colors_like(colors, given):

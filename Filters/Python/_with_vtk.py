@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyDa
 from vtkmodules.vtkParallelCore import vtkDummyController, vtkMultiProcessController
 
 from . import vtkGridFEMFilters
-from ._inputs import Error, checked, placed, require_range
+from ._inputs import Error, checked, placed
 
 _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
@@ -99,13 +99,10 @@ def triangulate(corners):
 
 
 def _set(algorithm, name, key, value):
-    """Sets a property. Raises Error for one that does not exist, and for a value out of range."""
+    """Sets a property. Raises Error for one that does not exist, and for a value of another type."""
     if not hasattr(algorithm, "Set" + key):
         raise Error(f"{name} has no property {key}")
     try:
-        if hasattr(algorithm, f"Get{key}MinValue") and not isinstance(value, str):
-            require_range(key, value, getattr(algorithm, f"Get{key}MinValue")(),
-                          getattr(algorithm, f"Get{key}MaxValue")())
         getattr(algorithm, "Set" + key)(value)
     except (TypeError, OverflowError) as error:
         raise Error(f"{key} = {value!r}: {error}") from None

@@ -60,7 +60,7 @@ public:
    * The level that output port 2 shows. The range is -1..14: -1 shows all levels, and a level
    * beyond Depth shows the finest. Default 14: the finest.
    */
-  vtkSetClampMacro(Level, int, -1, 14);
+  vtkSetInRangeMacro(Level, int, -1, 14);
   vtkGetMacro(Level, int);
   ///@}
 
@@ -76,7 +76,7 @@ public:
    * points, so they take several times the memory of the clipped mesh. Off leaves the port empty.
    * Automatic (default) fills it if there are at most a million points.
    */
-  vtkSetClampMacro(GenerateQuadraturePoints, int, QuadraturePointsOff, QuadraturePointsAutomatic);
+  vtkSetInRangeMacro(GenerateQuadraturePoints, int, QuadraturePointsOff, QuadraturePointsAutomatic);
   vtkGetMacro(GenerateQuadraturePoints, int);
   vtkBooleanMacro(GenerateQuadraturePoints, int);
   ///@}

@@ -55,7 +55,7 @@ public:
    * The level that output port 1 shows and that BasisId refers to. 0 is the whole cube, and a level
    * beyond Depth means the finest. 0..14, default 14: the finest.
    */
-  vtkSetClampMacro(Level, int, 0, 14);
+  vtkSetInRangeMacro(Level, int, 0, 14);
   vtkGetMacro(Level, int);
   ///@}
 
@@ -64,7 +64,7 @@ public:
    * The function of Level to evaluate as the point array `BasisFunction` of output port 0. -1
    * (default) evaluates none.
    */
-  vtkSetClampMacro(BasisId, vtkIdType, -1, VTK_ID_MAX);
+  vtkSetInRangeMacro(BasisId, vtkIdType, -1, VTK_ID_MAX);
   vtkGetMacro(BasisId, vtkIdType);
   ///@}
 

@@ -41,7 +41,7 @@ public:
   /**
    * The number of points to find. 1..100000, default 10.
    */
-  vtkSetClampMacro(NumberOfPoints, int, 1, 100000);
+  vtkSetInRangeMacro(NumberOfPoints, int, 1, 100000);
   vtkGetMacro(NumberOfPoints, int);
   ///@}
 
@@ -50,7 +50,7 @@ public:
    * The id of the first point. -1 (default) takes the first point of the surface. The filter
    * refuses an id that no polygon uses when it runs.
    */
-  vtkSetClampMacro(FirstPointId, int, -1, VTK_INT_MAX);
+  vtkSetInRangeMacro(FirstPointId, int, -1, VTK_INT_MAX);
   vtkGetMacro(FirstPointId, int);
   ///@}
 

@@ -88,7 +88,7 @@ public:
    * How smooth the samples are: the parameter of the Matérn covariance. 1 gives rough samples. Each
    * step up makes them smoother. 1..3, default 2.
    */
-  vtkSetClampMacro(Smoothness, int, 1, 3);
+  vtkSetInRangeMacro(Smoothness, int, 1, 3);
   vtkGetMacro(Smoothness, int);
   ///@}
 
@@ -104,7 +104,7 @@ public:
   /**
    * The seed of the random numbers. 0 or more, default 1.
    */
-  vtkSetClampMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkSetInRangeMacro(Seed, int, 0, VTK_INT_MAX);
   vtkGetMacro(Seed, int);
   ///@}
 
@@ -112,7 +112,7 @@ public:
   /**
    * The number of samples to compute. 1..100000, default 1.
    */
-  vtkSetClampMacro(NumberOfSamples, int, 1, 100000);
+  vtkSetInRangeMacro(NumberOfSamples, int, 1, 100000);
   vtkGetMacro(NumberOfSamples, int);
   ///@}
 

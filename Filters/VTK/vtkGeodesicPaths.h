@@ -98,7 +98,7 @@ public:
   /**
    * The rule by which points are connected. Default ToNearestSource.
    */
-  vtkSetClampMacro(PathType, int, ToNearestSource, AllPairs);
+  vtkSetInRangeMacro(PathType, int, ToNearestSource, AllPairs);
   vtkGetMacro(PathType, int);
   ///@}
 

@@ -75,7 +75,7 @@ public:
    * points. More points cost about fifty to a hundred solves in all, no matter how many points
    * there are.
    */
-  vtkSetClampMacro(Smoothness, int, Harmonic, Biharmonic);
+  vtkSetInRangeMacro(Smoothness, int, Harmonic, Biharmonic);
   vtkGetMacro(Smoothness, int);
   ///@}
 

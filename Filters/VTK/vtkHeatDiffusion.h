@@ -79,7 +79,7 @@ public:
    * The property that states how far heat spreads. Time (default): DiffusionTime. FullWidth: FWHM.
    * StandardDeviation: Sigma.
    */
-  vtkSetClampMacro(Amount, int, Time, StandardDeviation);
+  vtkSetInRangeMacro(Amount, int, Time, StandardDeviation);
   vtkGetMacro(Amount, int);
   ///@}
 
@@ -115,7 +115,7 @@ public:
   /**
    * The number of equal time steps. 1..10000, default 1.
    */
-  vtkSetClampMacro(NumberOfSteps, int, 1, 10000);
+  vtkSetInRangeMacro(NumberOfSteps, int, 1, 10000);
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
@@ -130,7 +130,7 @@ public:
    * stays at one time. Input: the output has the times of the input, with the last step at each of
    * them. A single step always follows the input.
    */
-  vtkSetClampMacro(TimeFrom, int, Steps, Input);
+  vtkSetInRangeMacro(TimeFrom, int, Steps, Input);
   vtkGetMacro(TimeFrom, int);
   ///@}
 

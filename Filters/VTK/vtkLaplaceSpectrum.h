@@ -79,7 +79,7 @@ public:
   /**
    * How many modes to compute. If fewer exist, a warning says so. 1..100000, default 20.
    */
-  vtkSetClampMacro(NumberOfModes, int, 1, 100000);
+  vtkSetInRangeMacro(NumberOfModes, int, 1, 100000);
   vtkGetMacro(NumberOfModes, int);
   ///@}
 
@@ -146,7 +146,7 @@ public:
    * 0. With HatFunctions the mesh may be too coarse, and no depth changes its error. 0..0.5,
    * default 0: Depth is used.
    */
-  vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
+  vtkSetInRangeMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);
   ///@}
 

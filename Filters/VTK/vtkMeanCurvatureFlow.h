@@ -95,7 +95,7 @@ public:
    * The number of steps to compute. 1..100000, default 10. A larger number continues the flow. A
    * smaller number computes nothing.
    */
-  vtkSetClampMacro(NumberOfSteps, int, 1, 100000);
+  vtkSetInRangeMacro(NumberOfSteps, int, 1, 100000);
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
@@ -110,7 +110,7 @@ public:
    * stays at one time. Input: the output has the times of the input, with the last step at each of
    * them.
    */
-  vtkSetClampMacro(TimeFrom, int, Steps, Input);
+  vtkSetInRangeMacro(TimeFrom, int, Steps, Input);
   vtkGetMacro(TimeFrom, int);
   ///@}
 
@@ -159,7 +159,7 @@ public:
    * or its volume. Automatic (default) is ConstantArea with Conformalized, because the surface
    * would shrink to nothing. Otherwise it is NoRescale.
    */
-  vtkSetClampMacro(Rescale, int, Automatic, ConstantVolume);
+  vtkSetInRangeMacro(Rescale, int, Automatic, ConstantVolume);
   vtkGetMacro(Rescale, int);
   ///@}
 

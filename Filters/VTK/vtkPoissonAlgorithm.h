@@ -37,16 +37,14 @@ public:
    * this fraction of the error of the function space. The value is above 0 and at most 1, by
    * default 0.1. Used if Tolerance is 0. The estimates are in the field data.
    */
-  vtkSetClampMacro(Accuracy, double, 1e-6, 1.0);
+  vtkSetInRangeMacro(Accuracy, double, 1e-6, 1.0);
   vtkGetMacro(Accuracy, double);
   ///@}
 
   ///@{
   /**
-   * The Tolerance of every solver, which may be 0 here. With 0 (default) Accuracy ends the
-   * iteration.
+   * The Tolerance of every solver may be 0 here. With 0 (default) Accuracy ends the iteration.
    */
-  void SetTolerance(double tolerance) override;
   double GetToleranceMinValue() override { return 0.0; }
   ///@}
 

@@ -167,7 +167,7 @@ public:
    * error of the mesh. If the error stays too large, or the next depth does not fit into memory,
    * the filter warns and `Converged` is 0. 0..0.5, default 0: Depth is used.
    */
-  vtkSetClampMacro(WantedError, double, 0.0, 0.5);
+  vtkSetInRangeMacro(WantedError, double, 0.0, 0.5);
   vtkGetMacro(WantedError, double);
   ///@}
 

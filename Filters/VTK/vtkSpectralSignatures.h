@@ -78,7 +78,7 @@ public:
    * The smallest number of modes to compute if the input has none. The filter adds modes to
    * complete the last group of equal eigenvalues. 2..100000, default 100.
    */
-  vtkSetClampMacro(NumberOfModes, int, 2, 100000);
+  vtkSetInRangeMacro(NumberOfModes, int, 2, 100000);
   vtkGetMacro(NumberOfModes, int);
   ///@}
 
@@ -87,7 +87,7 @@ public:
    * The number of components of each signature: the times of the heat kernel, and the bands of the
    * wave kernel. 1..1000, default 16.
    */
-  vtkSetClampMacro(NumberOfScales, int, 1, 1000);
+  vtkSetInRangeMacro(NumberOfScales, int, 1, 1000);
   vtkGetMacro(NumberOfScales, int);
   ///@}
 
@@ -128,7 +128,7 @@ public:
    *   describes.
    * - BandPass: keep modes FirstMode..LastMode.
    */
-  vtkSetClampMacro(FilterType, int, NoFilter, BandPass);
+  vtkSetInRangeMacro(FilterType, int, NoFilter, BandPass);
   vtkGetMacro(FilterType, int);
   ///@}
 
@@ -136,7 +136,7 @@ public:
   /**
    * The first mode that passes, for HighPass and BandPass. 0 or more, default 1: without the mean.
    */
-  vtkSetClampMacro(FirstMode, int, 0, VTK_INT_MAX);
+  vtkSetInRangeMacro(FirstMode, int, 0, VTK_INT_MAX);
   vtkGetMacro(FirstMode, int);
   ///@}
 
@@ -145,7 +145,7 @@ public:
    * The last mode that passes, for LowPass and BandPass. A larger number means the last existing
    * mode. 0 or more, default 20.
    */
-  vtkSetClampMacro(LastMode, int, 0, VTK_INT_MAX);
+  vtkSetInRangeMacro(LastMode, int, 0, VTK_INT_MAX);
   vtkGetMacro(LastMode, int);
   ///@}
 

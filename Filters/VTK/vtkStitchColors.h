@@ -73,7 +73,7 @@ public:
    * borders. A part of the longest side of the surface, 0..1; 0 (default) counts all gradients
    * fully up to the seam.
    */
-  vtkSetClampMacro(BlendWidth, double, 0.0, 1.0);
+  vtkSetInRangeMacro(BlendWidth, double, 0.0, 1.0);
   vtkGetMacro(BlendWidth, double);
   ///@}
 

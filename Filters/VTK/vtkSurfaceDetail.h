@@ -127,7 +127,7 @@ public:
    *   usual curvature.
    * - Custom: follows the CustomTransferFunction.
    */
-  vtkSetClampMacro(TransferFunction, int, Isotropic, Custom);
+  vtkSetInRangeMacro(TransferFunction, int, Isotropic, Custom);
   vtkGetMacro(TransferFunction, int);
   ///@}
 
@@ -136,7 +136,7 @@ public:
    * The factor on lengths along directions of large curvature. 0.001..1000, default 5. A value
    * below 1 changes these directions more than others.
    */
-  vtkSetClampMacro(Anisotropy, double, 1e-3, 1e3);
+  vtkSetInRangeMacro(Anisotropy, double, 1e-3, 1e3);
   vtkGetMacro(Anisotropy, double);
   ///@}
 

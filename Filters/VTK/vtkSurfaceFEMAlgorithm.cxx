@@ -288,10 +288,18 @@ void vtkSurfaceFEMAlgorithm::ComputeSurface(
   this->WriteDepth(outputs);
 }
 
-/// Calls Compute on the inputs restricted to the domain. The outputs are not. Collective.
+bool vtkSurfaceFEMAlgorithm::NoteRange(
+  const char* property, double value, double least, double most)
+{
+  return this->State->NoteRange(property, value, least, most);
+}
+
+/// Calls Compute on the inputs restricted to the domain. The outputs are not. Collective. Throws
+/// InvalidInput if a property was given a value out of its range.
 void vtkSurfaceFEMAlgorithm::ComputeInside(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  this->State->RequireRanges();
   vtkInformationVector** inside = inputs;
   this->State->Surface().Together(
     [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });

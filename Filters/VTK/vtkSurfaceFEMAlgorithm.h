@@ -74,6 +74,29 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+/// Sets a number that has a range, and gives the range as vtkSetClampMacro does. A number out of
+/// range becomes the nearest number in range, and the next run is refused with a message.
+#define vtkSetInRangeMacro(name, type, least, most)                                                \
+  virtual void Set##name(type value)                                                               \
+  {                                                                                                \
+    const type low = this->Get##name##MinValue();                                                  \
+    const type high = this->Get##name##MaxValue();                                                 \
+    const type inside = value < low ? low : value > high ? high : value;                           \
+    if (this->NoteRange(#name, double(value), double(low), double(high)) || this->name != inside)  \
+    {                                                                                              \
+      this->name = inside;                                                                         \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  virtual type Get##name##MinValue()                                                               \
+  {                                                                                                \
+    return least;                                                                                  \
+  }                                                                                                \
+  virtual type Get##name##MaxValue()                                                               \
+  {                                                                                                \
+    return most;                                                                                   \
+  }
+
 namespace gridfem
 {
 class BlockTables;
@@ -100,7 +123,7 @@ public:
    * points and that fits into memory. The filter refuses 1 when it runs. The field array
    * `UsedDepth` gives the depth.
    */
-  vtkSetClampMacro(Depth, int, 0, 14);
+  vtkSetInRangeMacro(Depth, int, 0, 14);
   vtkGetMacro(Depth, int);
   ///@}
 
@@ -152,7 +175,7 @@ public:
    * least 1e-3 and QuadratureDegree at least 6. On several MPI ranks, the surface is gathered on
    * rank 0. Distances, held values and stitched colors refuse these functions.
    */
-  vtkSetClampMacro(FunctionSpace, int, Grid, SmoothGrid);
+  vtkSetInRangeMacro(FunctionSpace, int, Grid, SmoothGrid);
   vtkGetMacro(FunctionSpace, int);
   ///@}
 
@@ -173,7 +196,7 @@ public:
    * and for any Depth. The error of the space is then 1.1 to 1.4 times as large on scans and parts,
    * and two to four times on spheres and cubes. 1e-14..1. Hat functions have none.
    */
-  vtkSetClampMacro(NormalStabilization, double, 1e-14, 1.0);
+  vtkSetInRangeMacro(NormalStabilization, double, 1e-14, 1.0);
   vtkGetMacro(NormalStabilization, double);
   ///@}
 
@@ -182,7 +205,7 @@ public:
    * The solver stops when its error measure has fallen by this factor. Each filter documents its
    * measure. Above 0, below 1.
    */
-  vtkSetClampMacro(Tolerance, double, 1e-16, 0.999);
+  vtkSetInRangeMacro(Tolerance, double, 1e-16, 0.999);
   vtkGetMacro(Tolerance, double);
   ///@}
 
@@ -191,7 +214,7 @@ public:
    * The solver stops after this number of iterations and warns. At least 1. Each filter has its own
    * default.
    */
-  vtkSetClampMacro(MaximumIterations, int, 1, VTK_INT_MAX);
+  vtkSetInRangeMacro(MaximumIterations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
@@ -199,7 +222,7 @@ public:
   /**
    * The number of threads. 0 (default) takes all processors. Results are the same for any number.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkSetInRangeMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
@@ -245,7 +268,7 @@ public:
    * points. UnitArea (default) takes the units of the surface scaled to area 1. UnitCube takes the
    * units of the surface scaled to a longest side of 1. Results are always in world units.
    */
-  vtkSetClampMacro(ParameterUnits, int, World, UnitCube);
+  vtkSetInRangeMacro(ParameterUnits, int, World, UnitCube);
   vtkGetMacro(ParameterUnits, int);
   ///@}
 
@@ -303,6 +326,12 @@ protected:
    * own piece, which may be null on port 0.
    */
   virtual bool NeedsWholeSurface();
+
+  /**
+   * Notes whether a property was given a value out of its range, which the next run refuses.
+   * Returns whether the note has changed.
+   */
+  bool NoteRange(const char* property, double value, double least, double most);
 
   /**
    * Prints the warnings. Only the first of several MPI ranks prints.

@@ -159,7 +159,7 @@ TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheirSystems)
   EXPECT_NE(solution(nullptr, 1e-2), solution(nullptr, 1e-12));
 }
 
-TEST(SolverProperty, ValuesOutOfRangeAreClamped)
+TEST(SolverProperty, ValuesOutOfRangeBecomeTheNearestAndAreRefused)
 {
   vtkNew<Poisson> filter;
   filter->SetMaximumIterations(0);
@@ -174,6 +174,10 @@ TEST(SolverProperty, ValuesOutOfRangeAreClamped)
   EXPECT_EQ(filter->GetWantedError(), 0.5);
   filter->SetFunctionSpace(3);
   EXPECT_EQ(filter->GetFunctionSpace(), int(Poisson::SmoothGrid));
+  filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  EXPECT_EQ(messages.errors.size(), 1u);
 }
 
 } // namespace

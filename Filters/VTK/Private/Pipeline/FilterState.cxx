@@ -3,6 +3,9 @@
 #include "Pieces/CanDistribute.h"
 #include "Pipeline/WholeSurface.h"
 
+#include "Base/Errors.h"
+#include "Solvers/Requirements.h"
+
 namespace gridfem
 {
 
@@ -33,6 +36,37 @@ void FilterState::RunTogether(const std::function<void()>& body)
       progressOfAll_ = ofAll;
       body();
     });
+}
+
+bool FilterState::NoteRange(const std::string& property, double value, double least, double most)
+{
+  std::string message;
+  try
+  {
+    RequireInRange(property, value, least, most);
+  }
+  catch (const InvalidInput& error)
+  {
+    message = error.what();
+  }
+  const auto noted = refusals_.find(property);
+  const bool isNew = message != (noted == refusals_.end() ? std::string() : noted->second);
+  if (isNew)
+  {
+    refusals_[property] = message;
+  }
+  return isNew;
+}
+
+void FilterState::RequireRanges() const
+{
+  for (const auto& [property, message] : refusals_)
+  {
+    if (!message.empty())
+    {
+      throw InvalidInput(message);
+    }
+  }
 }
 
 void FilterState::Free()

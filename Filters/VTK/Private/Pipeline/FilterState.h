@@ -6,6 +6,9 @@
 #include "Pipeline/InputSurface.h"
 #include "Pipeline/ProgressBridge.h"
 
+#include <map>
+#include <string>
+
 namespace gridfem
 {
 
@@ -34,6 +37,12 @@ public:
   /// The progress of the run, of all ranks within RunTogether.
   Progress GetProgress() { return this->UsesPiece() ? progressOfAll_ : bridge.GetProgress(); }
 
+  /// Notes whether a property was given a value out of its range. Returns whether the note changed.
+  bool NoteRange(const std::string& property, double value, double least, double most);
+
+  /// Throws InvalidInput if the last value of a property was out of its range.
+  void RequireRanges() const;
+
   /// Frees everything that the stages have made.
   void Free();
 
@@ -43,6 +52,7 @@ public:
 
 private:
   vtkAlgorithm* filter_;
+  std::map<std::string, std::string> refusals_; // messages, by property
   std::unique_ptr<InputSurface> whole_;
   std::unique_ptr<InputSurface> piece_; // null before RunTogether
   InputSurface* used_;
