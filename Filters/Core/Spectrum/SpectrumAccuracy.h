@@ -40,8 +40,9 @@ struct ValuesOnLevels
 /// squared residuals, the error of the iteration, are added. An error of 1 stands for unknown: the
 /// next level does not have the mode.
 ///
-/// An error is trusted if the ratio shows that the differences fall. An unresolved surface has
-/// differences that stay or grow.
+/// An error is trusted if the ratio shows that the differences fall, and if the first difference is
+/// below 0.3 of the value. An unresolved surface has differences that stay or grow, and larger ones
+/// tell no rate.
 /// @param residuals  one per wanted mode, at most as many as there are values
 EigenvalueErrors EstimateErrors(const ValuesOnLevels& values, const std::vector<double>& residuals);
 
