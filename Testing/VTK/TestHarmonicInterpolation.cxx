@@ -192,6 +192,11 @@ TEST_P(HarmonicInterpolation, TakesPointsOfAnotherDataSet)
   vtkNew<vtkFloatArray> color;
   color->SetName("Color");
   color->SetNumberOfComponents(3);
+  for (const double part : { 0.5, NaN }) // NaN is unknown, in one component or in all
+  {
+    points->InsertNextPoint(1.0, 1.0, part < 1.0 ? -1.0 : 1.0);
+    color->InsertNextTuple3(part, NaN, part);
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
     for (const double sign : { -1.0, 1.0 })
@@ -211,6 +216,13 @@ TEST_P(HarmonicInterpolation, TakesPointsOfAnotherDataSet)
   EXPECT_LT(Difference(PointValues(by_place->GetOutput(), "Interpolated"),
               PointValues(by_mask->GetOutput(), "Interpolated")),
     1e-6); // in single precision
+
+  color->Fill(NaN);
+  color->Modified();
+  Messages messages(by_place);
+  EXPECT_EQ(by_place->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("all are NaN"), std::string::npos) << messages.errors[0];
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, HarmonicInterpolation,

@@ -169,12 +169,26 @@ PointValues ValuesOfPlaces(
   {
     throw InvalidInput("The input " + input + " has no points.");
   }
+  const std::vector<Id> nearest = NearestPoints(mesh, places, input);
+  std::vector<vtkIdType> known;
   PointValues given;
-  given.points = NearestPoints(mesh, places, input);
-  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
+  for (std::size_t place = 0; place < nearest.size(); ++place)
+  {
+    if (!HasNaN(array.array, static_cast<vtkIdType>(place)))
+    {
+      known.push_back(static_cast<vtkIdType>(place));
+      given.points.push_back(nearest[place]);
+    }
+  }
+  if (known.empty())
+  {
+    throw InvalidInput(
+      "No value of '" + array.name + "' of the input " + input + " is known: all are NaN.");
+  }
+  given.values.resize(static_cast<Id>(known.size()), array.array->GetNumberOfComponents());
   for (Id row = 0; row < given.values.rows(); ++row)
   {
-    CopyFinite(array, row, given.values, row);
+    CopyFinite(array, known[row], given.values, row);
   }
   return given;
 }

@@ -48,7 +48,7 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
   const std::string& property);
 
 /// Returns the values of all points of a data set, each at the nearest mesh point that a triangle
-/// uses. Throws InvalidInput if there are none or one is not finite.
+/// uses. NaN is unknown. Throws InvalidInput if no value is known or one is infinite.
 /// @param input  its name for messages
 PointValues ValuesOfPlaces(
   const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places, const std::string& input);
