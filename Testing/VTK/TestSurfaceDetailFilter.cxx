@@ -331,6 +331,30 @@ TEST_P(SurfaceDetailFilter, WithoutADifferenceTheSelectionDoesNotCount)
   }
 }
 
+/// Without a screening weight, the transition is all that other units change.
+TEST_P(SurfaceDetailFilter, OtherUnitsChangeTheTransition)
+{
+  const auto sphere = WavySphere();
+  const auto make = [&](int units)
+  {
+    const auto filter = DetailOf(sphere, GetParam());
+    filter->SetTolerance(1e-10);
+    filter->SetScreeningWeight(0.0);
+    filter->SetDetailScale(3.0);
+    filter->SetOutsideScale(0.0);
+    filter->SetTransitionWidth(0.3);
+    filter->SetParameterUnits(units);
+    filter->SetInputDataObject(2, Above(sphere, 0.1));
+    return filter;
+  };
+  const auto kept = make(vtkSurfaceDetail::World);
+  const std::vector<double> inWorld = PositionsFrom(kept);
+  kept->SetParameterUnits(vtkSurfaceDetail::UnitArea);
+  const std::vector<double> inArea = PositionsFrom(kept);
+  EXPECT_LE(Difference(inArea, PositionsFrom(make(vtkSurfaceDetail::UnitArea))), 1e-6);
+  EXPECT_GT(Difference(inArea, inWorld), 0.01);
+}
+
 /// The two halves add up: the sum of their changes is the change by both together.
 TEST_P(SurfaceDetailFilter, InsideAndOutsideAddUp)
 {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace gridfem;
 using namespace gridfem::testing;
 
@@ -67,6 +69,41 @@ TEST(StitchSolver, TheReferenceKeepsItsColorsAndTheOtherScanFollows)
   // On the seam, a strip of triangles of side 0.07, no gradient is known.
   EXPECT_LT(Largest(dark - z), 0.1);
   EXPECT_LT(Largest(bright - z - MultiVector::Ones(z.rows(), 1)), 0.1);
+}
+
+/// The bright scan fades by 0.5 toward the seam, over a length of 0.3; the sphere's diameter is 2.
+/// Without blending the fade moves the scan by all but the 0.06 that it fades within the seam.
+TEST(StitchSolver, BlendWidthIsAPartOfTheLongestSide)
+{
+  const auto mesh = Ball();
+  const MultiVector points = PointCoordinates(*mesh);
+  MultiVector colors = points.col(2);
+  for (Id point = 0; point < points.rows(); ++point)
+  {
+    const double x = points(point, 0);
+    colors(point, 0) += x > 0.0 ? 1.0 - 0.5 * std::max(0.0, 1.0 - x / 0.3) : 0.0;
+  }
+  StitchSolver::Input input = TwoScans(*mesh);
+  input.colors = GivenField::Of("faded", { FieldAssociation::Points, colors });
+  const auto meanFarAway = [&](double blendWidth, int depth)
+  {
+    StitchSolver::Options options = KeepingScan(3);
+    options.blendWidth = blendWidth;
+    const MultiVector values = StitchSolver::Solve(mesh, input, options, AtDepth(depth)).values;
+    double sum = 0.0;
+    int count = 0;
+    for (Id point = 0; point < points.rows(); ++point)
+    {
+      const bool isFar = points(point, 0) > 0.6;
+      sum += isFar ? values(point, 0) - points(point, 2) : 0.0;
+      count += isFar;
+    }
+    return sum / count;
+  };
+  const double blended = meanFarAway(0.25, 5);
+  EXPECT_NEAR(meanFarAway(0.0, 5), 0.44, 0.05);
+  EXPECT_NEAR(blended, 0.13, 0.05); // 0.5 times the mean share over the fade
+  EXPECT_NEAR(meanFarAway(0.25, 6), blended, 0.01);
 }
 
 TEST(StitchSolver, EachOptionChangesTheResultAsInANewSolver)

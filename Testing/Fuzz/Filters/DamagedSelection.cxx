@@ -228,7 +228,7 @@ void DamageProperty(Choice& choice, Node* node, DamagedCase& outcome)
     { "COMPOSITE_INDEX", Node::COMPOSITE_INDEX() }, { "PROCESS_ID", Node::PROCESS_ID() },
     { "INVERSE", Node::INVERSE() }, { "CONNECTED_LAYERS", Node::CONNECTED_LAYERS() },
     { "HIERARCHICAL_LEVEL", Node::HIERARCHICAL_LEVEL() } });
-  const int value = choice.Of({ -1, 0, 1, 2, 3, 5, 8, 11, 12, -7, 1000,
+  const int value = choice.Of({ -1, 0, 1, 2, 3, 5, 8, 9, 10, 11, 12, -7, 1000,
     std::numeric_limits<int>::max(), std::numeric_limits<int>::min() });
   outcome.description += std::string(", ") + property.name + " " + std::to_string(value);
   node->GetProperties()->Set(property.key, value);

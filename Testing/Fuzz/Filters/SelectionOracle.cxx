@@ -163,9 +163,9 @@ std::optional<Flags> Taken(Node* node, vtkPolyData* surface, int block)
       return IsOfPoints(node) ? ByPlaces(node, list, surface) : std::nullopt;
     case Node::FRUSTUM:
       return ByFrustum(node, list, surface);
-    case Node::BLOCKS:
-      return std::find(list.begin(), list.end(), double(block)) != list.end() ||
-                 std::find(list.begin(), list.end(), 0.0) != list.end()
+    case Node::BLOCKS: // pairs are of levels that these blocks do not have
+      return !isPair && (std::find(list.begin(), list.end(), double(block)) != list.end() ||
+                          std::find(list.begin(), list.end(), 0.0) != list.end())
                ? Flags(none.size(), 1)
                : none;
     default:
