@@ -65,6 +65,13 @@ def load():
     simple.LoadPlugin(os.environ["GRIDFEM_PLUGIN"], remote=False, ns=vars(simple))
 
 
+def clear():
+    """Deletes all of the pipeline and its views, which takes less time than a new session."""
+    for proxies in simple.GetViews(), simple.GetLayouts().values(), simple.GetSources().values():
+        for proxy in list(proxies):
+            simple.Delete(proxy)
+
+
 def sphere():
     """Makes a sphere of radius 1."""
     return simple.Sphere(Radius=1.0, ThetaResolution=40, PhiResolution=20)

@@ -89,6 +89,9 @@ def check_shown(name):
     labels = [part for part in seen if part.SMProxy.GetXMLName() == "TextSourceRepresentation"]
     if len(labels) != (name in LABELED):
         sys.exit(f"{name}: {len(labels)} labels are shown")
+    source.UpdatePipeline(simple.GetActiveView().ViewTime)
+    if source.GetDataInformation().GetNumberOfPoints() == 0:
+        sys.exit(f"{name}: nothing comes out of the state")
     association, array = surfaces[0].ColorArrayName
     wanted_array, colors = plugin.colors_of(name)
     if (array or "") != wanted_array:
@@ -98,12 +101,10 @@ def check_shown(name):
     if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
         sys.exit(f"{name}: the colors are not shown as they are")
     if not array or not surfaces[0].MapScalars:  # the shape alone, or unchanged colors
-        simple.ResetSession()
         return
     if len(seen) != len(surfaces) + len(labels) + 1:
         sys.exit(f"{name}: no color bar is shown")
     data = source.PointData if association == "POINTS" else source.CellData
-    source.UpdatePipeline(simple.GetActiveView().ViewTime)
     component = -1 if data[array].GetNumberOfComponents() > 1 else 0
     wanted = data[array].GetRange(component)
     if colors == "diverging" and component == 0:
@@ -113,11 +114,11 @@ def check_shown(name):
     between = (points[0], points[-4])
     if not all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(wanted, between)):
         sys.exit(f"{name}: colors between {between}, values between {wanted}")
-    simple.ResetSession()
 
 
 for name in plugin.PROXIES:
     check_shown(name)
+    plugin.clear()
     changed, after = plugin.change_of(name)
     before = value_of(sources(f"{folder}/{name}.Shown.pvsm")[name + "1"], changed)
     if before == after:
@@ -129,10 +130,6 @@ for name in plugin.PROXIES:
         value = value_of(found[name + "1"], changed)
         if value != wanted:
             sys.exit(f"{name}: after {step} {changed} is {value}")
-    simple.LoadState(f"{folder}/{name}.Redo.pvsm")
-    if plugin.data(simple.FindSource(name + "1")).GetNumberOfPoints() == 0:
-        sys.exit(f"{name}: nothing comes out of the state")
-    simple.ResetSession()
 loaded = sources(f"{folder}/loaded.pvsm")
 first = plugin.PROXIES[0]
 again = sources(f"{folder}/{first}.Redo.pvsm")
