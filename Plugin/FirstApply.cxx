@@ -133,6 +133,30 @@ private:
 
 vtkStandardNewMacro(vtkSMShowsLastStep);
 
+class vtkSMDrawsTubes : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMDrawsTubes* New();
+  vtkTypeMacro(vtkSMDrawsTubes, vtkSMProxyInitializationHelper);
+
+  /// Lines as wide as a pixel vanish in the surface that they lie in.
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    int port = 1;
+    xml->GetScalarAttribute("port", &port);
+    WhenFirstShown(proxy, port,
+      [](vtkSMProxy* lines, vtkSMSourceProxy*)
+      {
+        constexpr double Width = 6.0; // pixels
+        vtkSMPropertyHelper(lines, "LineWidth", true).Set(Width);
+        vtkSMPropertyHelper(lines, "RenderLinesAsTubes", true).Set(1);
+        lines->UpdateVTKObjects();
+      });
+  }
+};
+
+vtkStandardNewMacro(vtkSMDrawsTubes);
+
 /// Whether the values of an array are themselves colors.
 /// @param direct  "bytes", or "fractions": numbers from 0 to 1 as well
 bool AreColors(vtkPVArrayInformation* array, const std::string& direct)
@@ -331,6 +355,7 @@ void AddToInterpreter(vtkClientServerInterpreter* interpreter)
 {
   interpreter->AddNewInstanceFunction("vtkSMOpensBeside", NewHelper<vtkSMOpensBeside>);
   interpreter->AddNewInstanceFunction("vtkSMShowsLastStep", NewHelper<vtkSMShowsLastStep>);
+  interpreter->AddNewInstanceFunction("vtkSMDrawsTubes", NewHelper<vtkSMDrawsTubes>);
   interpreter->AddNewInstanceFunction("vtkSMColorsLater", NewHelper<vtkSMColorsLater>);
   interpreter->AddNewInstanceFunction("vtkSMAxisTitles", NewHelper<vtkSMAxisTitles>);
 }
