@@ -37,8 +37,8 @@ class TestPipeline(unittest.TestCase):
             "ClipToOctree": ["vtkPolyData", "vtkUnstructuredGrid"],
             "ConnectivityAwareBasis": ["vtkUnstructuredGrid"],
             "ScreenedPoisson": ["vtkTable"],
-            "LaplaceSpectrum": ["vtkTable"],
-            "MeanCurvatureFlow": ["vtkTable"],
+            "LaplaceSpectrum": ["vtkTable", "vtkTable"],
+            "MeanCurvatureFlow": ["vtkTable", "vtkTable"],
             "SpectralSignatures": ["vtkTable"],
             "GeodesicPaths": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
