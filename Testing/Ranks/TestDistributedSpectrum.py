@@ -27,7 +27,7 @@ def values_of(output):
 class DistributedSpectrum(unittest.TestCase):
     def same_as_alone(self, mesh, kind, **properties):
         mine = ranks.piece(mesh, kind)
-        output, table = ranks.run(made(**properties), mine)
+        output, table, _ = ranks.run(made(**properties), mine)
         whole = ranks.alone(lambda: ranks.run(made(**properties), ranks.whole(mesh))[0])
         problems = [] if number(output, "Distributed") == 1 else ["rank 0 has gathered"]
         problems += [] if number(output, "Converged") == 1 else ["not converged"]

@@ -312,13 +312,14 @@ def alone(compute):
 # --- comparison -------------------------------------------------------------------------------
 
 def arrays(attributes):
-    """Returns arrays by their names. Leaves out ghost flags, times, and ids of points, which count
-    through the gathered surface."""
+    """Returns arrays of numbers by their names. Leaves out ghost flags, times, and ids of points, which
+    count through the gathered surface."""
     wrapped = dataset_adapter.DataSetAttributes(attributes, None, None)
     names = [attributes.GetArrayName(k) for k in range(attributes.GetNumberOfArrays())]
+    left_out = (vtkDataSetAttributes.GhostArrayName(), "global", "Seconds", "NearestPoint",
+                "FarthestPoints")
     return {name: numpy.array(wrapped[name], dtype=float) for name in names
-            if name not in (vtkDataSetAttributes.GhostArrayName(), "global", "Seconds", "NearestPoint",
-                            "FarthestPoints")}
+            if attributes.GetArray(name) and name not in left_out}
 
 
 def apart(ours, theirs):
