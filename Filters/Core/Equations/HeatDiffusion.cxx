@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace gridfem
 {
@@ -101,7 +103,7 @@ SolveReport HeatDiffusion::Advance(const Job& job)
   MultiVector now = load_;
   auto accuracy = SolutionAccuracy::Exact();
   ConstrainedSolution met;
-  bool converged = true;
+  std::optional<SolveReport> failed; // of the first solve that has not converged
   for (int k = 0; k < solves; ++k)
   {
     if (k > 0 && !isStart)
@@ -116,7 +118,10 @@ SolveReport HeatDiffusion::Advance(const Job& job)
     }
     solution =
       equation_->Solve(now, heldValues_, met, job.Part(double(k) / solves, double(k + 1) / solves));
-    converged = converged && solution.report.converged;
+    if (!solution.report.converged && !failed)
+    {
+      failed = solution.report;
+    }
     KeepWorse(solution.accuracy, accuracy);
     now = equation_->IntegralsOf(solution.coefficients, job);
   }
@@ -131,8 +136,7 @@ SolveReport HeatDiffusion::Advance(const Job& job)
   accuracy_ = accuracy;
   met_ = std::move(met);
   hasStarted_ = true;
-  solution.report.converged = converged;
-  return std::move(solution.report);
+  return failed ? std::move(*failed) : std::move(solution.report);
 }
 
 } // namespace gridfem

@@ -97,6 +97,35 @@ TEST(HeatDiffusion, LetsHarmonicsOfASphereDecayAsTheyDo)
   }
 }
 
+/// The first solve starts from rough values, so it needs more iterations than the later ones. If
+/// the limit stops it alone, the report is still its own.
+TEST(HeatDiffusion, TellsWhyASolveHasNotConverged)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(10), { 1, 2, 3 }, 0.4);
+  const auto space = Build(mesh, false, 4);
+  const MultiVector start =
+    space->LoadOfValues(OnPoints(RandomValues(static_cast<Id>(mesh.points.size()), 1)));
+  int failures = 0;
+  int successes = 0;
+  for (const double timeStep : { 1.0, 10.0, 100.0 })
+  {
+    DiffusionOptions options = Options(timeStep, TimeScheme::SecondOrder);
+    for (int most = 1; most <= 12; ++most)
+    {
+      options.solve.maximumIterations = most;
+      HeatDiffusion diffusion(EquationOf(space, options), start);
+      for (int step = 0; step < 2; ++step)
+      {
+        const SolveReport report = diffusion.Advance();
+        EXPECT_EQ(report.converged, report.end == SolveEnd::Converged) << timeStep << " " << most;
+        (report.converged ? successes : failures) += 1;
+      }
+    }
+  }
+  EXPECT_GT(failures, 0);
+  EXPECT_GT(successes, 0);
+}
+
 /// Each step multiplies by a known rational function of z = 6 δ. The rest of the error comes from
 /// the space.
 TEST(HeatDiffusion, HasTheOrdersOfItsSchemes)
