@@ -156,7 +156,7 @@ def other_values(key, prop, value):
     if key in OTHER_VALUES:
         return OTHER_VALUES[key]
     if prop.GetCommand() == "SetInputArrayToProcess":
-        return [choice for choice in arrays_offered(prop) if choice[1] != value[1]][:4]
+        return [choice for choice in arrays_offered(prop) if choice[1] != value[1]][:2]
     enumeration = prop.FindDomain("vtkSMEnumerationDomain")
     if enumeration:
         return [enumeration.GetEntryValue(k) for k in range(enumeration.GetNumberOfEntries())]
