@@ -221,8 +221,8 @@ def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0
 def krige(points, cells, ids, values, distance, noise=0.0, number=100, **properties):
     """Predicts a field everywhere from observed values at the points with the given ids (kriging).
 
-    distance: the Range in ParameterUnits; farther values hardly depend on each other. noise: the standard
-    deviation of the errors of the values. StandardDeviation is that of the field. Returns the
+    distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. noise: the
+    standard deviation of the errors of the values. StandardDeviation belongs to the field. Returns the
     prediction (N), the standard deviation of its error (N), the leave-one-out errors (K), and the
     logarithm of the likelihood of the values. A leave-one-out error is a value minus its prediction from
     all others. The standard deviation is estimated from `number` samples. The likelihood compares

@@ -38,18 +38,6 @@ double MedianError(const std::vector<double>& found, const std::vector<double>& 
   return errors.at(errors.size() / 2);
 }
 
-/// l (l + 1), 2 l + 1 times.
-std::vector<double> SphereEigenvalues()
-{
-  std::vector<double> values;
-  for (int l = 0; values.size() < Modes; ++l)
-  {
-    values.insert(values.end(), static_cast<std::size_t>(2 * l + 1), l * (l + 1.0));
-  }
-  values.resize(Modes);
-  return values;
-}
-
 struct Measured
 {
   double error;
@@ -161,7 +149,7 @@ int main(int argc, char** argv)
   if (parts.Want("sphere"))
   {
     Degrees("sphere", testing::Transform(testing::GeodesicSphere(200), { 1, 2, 3 }, 0.7))
-      .Run(SphereEigenvalues());
+      .Run(SphereEigenvalues(Modes));
   }
   if (parts.Want("rocker"))
   {

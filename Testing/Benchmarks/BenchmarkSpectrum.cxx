@@ -116,18 +116,6 @@ double LargestError(
   return values.size() < count ? HUGE_VAL : error;
 }
 
-/// l (l + 1), 2 l + 1 times.
-std::vector<double> SphereEigenvalues(std::size_t count)
-{
-  std::vector<double> values;
-  for (int l = 0; values.size() < count; ++l)
-  {
-    values.insert(values.end(), 2 * l + 1, l * (l + 1.0));
-  }
-  values.resize(count);
-  return values;
-}
-
 void RunSphere()
 {
   std::printf("\nEigenvalues 2 to 100 of the unit sphere against l (l + 1), largest error\n");

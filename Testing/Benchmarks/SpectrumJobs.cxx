@@ -138,4 +138,15 @@ SpectrumJob ShiftInvertSpectrum(HatEigensolver solver, const TriangleMesh& mesh,
     limit);
 }
 
+std::vector<double> SphereEigenvalues(std::size_t count)
+{
+  std::vector<double> values;
+  for (int l = 0; values.size() < count; ++l)
+  {
+    values.insert(values.end(), 2 * l + 1, l * (l + 1.0));
+  }
+  values.resize(count);
+  return values;
+}
+
 } // namespace gridfem::benchmarks

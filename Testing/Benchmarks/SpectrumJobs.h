@@ -39,6 +39,9 @@ using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int, double);
 SpectrumJob ShiftInvertSpectrum(HatEigensolver solver, const TriangleMesh& mesh, int modes,
   int blasThreads, double tolerance, double limit = HUGE_VAL);
 
+/// The exact eigenvalues of the unit sphere: l (l + 1), 2 l + 1 times.
+std::vector<double> SphereEigenvalues(std::size_t count);
+
 } // namespace gridfem::benchmarks
 
 #endif

@@ -25,6 +25,8 @@ PointCovariances::PointCovariances(const MaternField& field, SparseMatrix rows, 
   const Id points = rows_.rows;
   betweenPoints_.resize(points, points);
   toCoefficients_.resize(loads_.rows, points <= MostKept ? points : 0);
+  report_.converged = true; // so far
+  report_.end = SolveEnd::Converged;
   for (Id first = 0; first < points; first += ColumnsAtOnce)
   {
     const Id count = std::min(ColumnsAtOnce, points - first);
@@ -39,14 +41,7 @@ PointCovariances::PointCovariances(const MaternField& field, SparseMatrix rows, 
     {
       toCoefficients_.middleCols(first, count) = columns.coefficients;
     }
-    if (first == 0)
-    {
-      report_ = std::move(columns.report);
-    }
-    else
-    {
-      KeepWorse(std::move(columns.report), report_);
-    }
+    KeepWorse(std::move(columns.report), report_);
   }
   betweenPoints_ = 0.5 * (betweenPoints_ + betweenPoints_.transpose()).eval();
 }

@@ -341,14 +341,14 @@ void GaussianFieldSolver::Sample(const Surface& surface, const Options& options,
     }
     result_.atPoints.middleCols(first, count) = values;
   }
-  if (options.statistics)
-  {
-    result_.atPoints = sums.Statistics(options.numberOfSamples);
-  }
   if (options.statistics && covariances_)
   {
-    result_.atPoints.col(0) = mean;
-    result_.atPoints.col(1) = sums.DeviationFromZero(options.numberOfSamples);
+    result_.atPoints.resize(mean.size(), 2);
+    result_.atPoints << mean, sums.DeviationFromZero(options.numberOfSamples);
+  }
+  else if (options.statistics)
+  {
+    result_.atPoints = sums.Statistics(options.numberOfSamples);
   }
   result_.warnings = warnings_;
   if (!result_.report.converged)

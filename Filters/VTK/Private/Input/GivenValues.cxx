@@ -29,17 +29,23 @@ bool HasNaN(vtkDataArray* array, vtkIdType tuple)
   return false;
 }
 
-void CopyFinite(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+/// Returns the values at some points, a row for each. Throws InvalidInput if one is not finite.
+MultiVector FiniteValues(const InputArray& input, const std::vector<Id>& points)
 {
-  for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
+  MultiVector values(static_cast<Id>(points.size()), input.array->GetNumberOfComponents());
+  for (Id row = 0; row < values.rows(); ++row)
   {
-    values(row, c) = input.array->GetComponent(tuple, c);
-    if (!std::isfinite(values(row, c)))
+    for (int c = 0; c < values.cols(); ++c)
     {
-      throw InvalidInput("Array '" + input.name + "' has a value that is not finite at point " +
-                         std::to_string(tuple) + ".");
+      values(row, c) = input.array->GetComponent(points[row], c);
+      if (!std::isfinite(values(row, c)))
+      {
+        throw InvalidInput("Array '" + input.name + "' has a value that is not finite at point " +
+                           std::to_string(points[row]) + ".");
+      }
     }
   }
+  return values;
 }
 
 bool IsChosen(Id point, const InputArray& mask, const SelectedPoints& selection)
@@ -89,11 +95,7 @@ PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
       given.points.push_back(point);
     }
   }
-  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
-  for (Id row = 0; row < given.values.rows(); ++row)
-  {
-    CopyFinite(array, given.points[row], given.values, row);
-  }
+  given.values = FiniteValues(array, given.points);
   return given;
 }
 
@@ -170,13 +172,13 @@ PointValues ValuesOfPlaces(
     throw InvalidInput("The input " + input + " has no points.");
   }
   const std::vector<Id> nearest = NearestPoints(mesh, places, input);
-  std::vector<vtkIdType> known;
+  std::vector<Id> known;
   PointValues given;
-  for (std::size_t place = 0; place < nearest.size(); ++place)
+  for (Id place = 0; place < static_cast<Id>(nearest.size()); ++place)
   {
-    if (!HasNaN(array.array, static_cast<vtkIdType>(place)))
+    if (!HasNaN(array.array, place))
     {
-      known.push_back(static_cast<vtkIdType>(place));
+      known.push_back(place);
       given.points.push_back(nearest[place]);
     }
   }
@@ -185,11 +187,7 @@ PointValues ValuesOfPlaces(
     throw InvalidInput(
       "No value of '" + array.name + "' of the input " + input + " is known: all are NaN.");
   }
-  given.values.resize(static_cast<Id>(known.size()), array.array->GetNumberOfComponents());
-  for (Id row = 0; row < given.values.rows(); ++row)
-  {
-    CopyFinite(array, known[row], given.values, row);
-  }
+  given.values = FiniteValues(array, known);
   return given;
 }
 

@@ -195,63 +195,78 @@ void RequireComparable(vtkSelectionNode* node, vtkDataArray* list, vtkDataObject
   }
 }
 
+/// Requires names of blocks, which new versions of VTK select by.
+void RequireNames(vtkSelectionNode* node, vtkDataObject* data)
+{
+  if (!vtkStringArray::SafeDownCast(node->GetSelectionList()) ||
+      !vtkCompositeDataSet::SafeDownCast(data))
+  {
+    RefuseNode(node, "needs a list of names, and an input with blocks.");
+  }
+}
+
+/// VTK takes other points for ranges that begin outside.
+void RequireIds(vtkSelectionNode* node, vtkDataArray* list)
+{
+  if (!IsInteger(list->GetDataType()) || list->GetNumberOfComponents() != 1)
+  {
+    RefuseNode(node, "needs a list of integers with one component.");
+  }
+}
+
+vtkDataArray* NumbersOf(vtkSelectionNode* node)
+{
+  auto* const numbers = vtkDataArray::SafeDownCast(node->GetSelectionList());
+  if (!numbers || numbers->GetDataType() == VTK_BIT)
+  {
+    RefuseNode(node, "needs a list of numbers.");
+  }
+  return numbers;
+}
+
+bool HasItems(vtkSelectionNode* node)
+{
+  vtkAbstractArray* const list = node->GetSelectionList();
+  return list && list->GetNumberOfTuples() > 0;
+}
+
 } // namespace
 
 void RequireList(vtkSelectionNode* node, vtkDataObject* data)
 {
-  const int content = node->GetContentType();
-  if (content == vtkSelectionNode::FRUSTUM)
-  {
-    RequireFrustum(node);
-    return;
-  }
-  vtkAbstractArray* const list = node->GetSelectionList();
-  auto* const numbers = vtkDataArray::SafeDownCast(list);
-  const bool areNumbers = numbers && list->GetDataType() != VTK_BIT;
-  switch (content)
+  switch (node->GetContentType())
   {
     case vtkSelectionNode::QUERY:
-      return;
+      break;
+    case vtkSelectionNode::FRUSTUM:
+      RequireFrustum(node);
+      break;
+    case vtkSelectionNode::BLOCKS:
+      RequireBlocks(node, NumbersOf(node), data);
+      break;
+    case vtkSelectionNode::LOCATIONS:
+      if (HasItems(node))
+      {
+        RequirePlaces(node, NumbersOf(node));
+      }
+      break;
+    case vtkSelectionNode::INDICES:
+      if (HasItems(node))
+      {
+        RequireIds(node, NumbersOf(node));
+      }
+      break;
     case vtkSelectionNode::GLOBALIDS:
     case vtkSelectionNode::PEDIGREEIDS:
     case vtkSelectionNode::VALUES:
-    case vtkSelectionNode::INDICES:
-    case vtkSelectionNode::LOCATIONS:
     case vtkSelectionNode::THRESHOLDS:
-      if (!list || list->GetNumberOfTuples() == 0)
+      if (HasItems(node))
       {
-        return;
-      }
-      [[fallthrough]];
-    case vtkSelectionNode::BLOCKS:
-      if (!areNumbers)
-      {
-        RefuseNode(node, "needs a list of numbers.");
-      }
-      break;
-    default: // blocks by their names, in new versions of VTK
-      if (!vtkStringArray::SafeDownCast(list) || !vtkCompositeDataSet::SafeDownCast(data))
-      {
-        RefuseNode(node, "needs a list of names, and an input with blocks.");
-      }
-      return;
-  }
-  switch (content)
-  {
-    case vtkSelectionNode::LOCATIONS:
-      RequirePlaces(node, numbers);
-      break;
-    case vtkSelectionNode::BLOCKS:
-      RequireBlocks(node, numbers, data);
-      break;
-    case vtkSelectionNode::INDICES: // VTK takes other points for ranges that begin outside
-      if (!IsInteger(list->GetDataType()) || list->GetNumberOfComponents() != 1)
-      {
-        RefuseNode(node, "needs a list of integers with one component.");
+        RequireComparable(node, NumbersOf(node), data);
       }
       break;
     default:
-      RequireComparable(node, numbers, data);
+      RequireNames(node, data);
   }
 }
 
