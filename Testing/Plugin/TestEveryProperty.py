@@ -39,6 +39,9 @@ functions = {
     "other_mask": lambda x, y, z: (float(y > -0.3),),
     "label": lambda x, y, z: (float(z > 0.2),),
     "other_label": lambda x, y, z: (float(x > 0.1),),
+    "few": lambda x, y, z: (float(x > 0.9),),
+    "other_few": lambda x, y, z: (float(y > 0.9),),
+    "known": lambda x, y, z: (z if x > 0.9 else math.nan,),
     "metric": lambda x, y, z: (1 + x * x, 1, 2, 0, 0, 0),
     "other_metric": lambda x, y, z: (1, 1 + y * y, 1, 0, 0.1, 0)}
 for place, (attributes, where) in places.items():
@@ -62,7 +65,7 @@ STARTS = {
     "GaussianField": [{"Range": 0.5, "NumberOfSamples": 3},
                       {"Range": 0.5, "NumberOfSamples": 3, "Statistics": 1},
                       {"Range": 0.5, "NumberOfSamples": 3, "ObservationArray": [POINTS, "p_f"],
-                       "MaskArray": [POINTS, "p_mask"], "ObservationNoise": 0.3}],
+                       "MaskArray": [POINTS, "p_few"], "ObservationNoise": 0.3}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
                          {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
     "GeodesicPaths": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
@@ -94,6 +97,9 @@ STARTS = {
 OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5], [1, 9]], "TargetPointIds": [[7], [20, 30]],
                 "NumberOfModes": [6, 3], "Mode": [1, 2], "Accuracy": [0.01], "WantedError": [0.3],
                 "ResultPrefix": ["Mine "], "FirstMode": [2], "LastMode": [3],
+                # Each observation takes a solve.
+                "ObservationArray": [[POINTS, "p_known"]],
+                "MaskArray": [[POINTS, "p_other_few"], ["CELLS", "c_few"]],
                 "FirstPointId": [7], "InsideLabel": [0], "ReferenceLabel": [1, 0],
                 "NormalStabilization": [1e-3], "MaximumIterations": [2], "Tolerance": [1e-3]}
 ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end an iteration early

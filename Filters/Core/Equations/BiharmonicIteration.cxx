@@ -31,7 +31,6 @@ public:
       mass_(space.Matrix(0, 1.0, 0.0, threads_)), solve_(solve), project_(project),
       progress_(progress)
   {
-    inner.converged = true;
   }
 
   /// K⁻¹ b
@@ -95,7 +94,7 @@ public:
     return areas;
   }
 
-  SolveReport inner; // the worst report of the solves with K
+  SolveReport inner = SolveReport::Solved(); // the worst report of the solves with K
 
 private:
   const FiniteElementSpace& space_;

@@ -25,8 +25,6 @@ public:
     : space_(space), multigrid_(BuildMultigrid(space, 0.0, 1.0, options.multigrid, progress)),
       poisson_(PoissonOptions{ { options.multigrid, options.solve }, 0.0 })
   {
-    report.converged = true;
-    report.end = SolveEnd::Converged;
   }
 
   MultiVector OnCoarser(const MultiVector& load, const Progress& progress) const
@@ -51,7 +49,7 @@ public:
     return std::move(solution.coefficients);
   }
 
-  SolveReport report;
+  SolveReport report = SolveReport::Solved();
 
 private:
   const FiniteElementSpace& space_;

@@ -25,8 +25,6 @@ PointCovariances::PointCovariances(const MaternField& field, SparseMatrix rows, 
   const Id points = rows_.rows;
   betweenPoints_.resize(points, points);
   toCoefficients_.resize(loads_.rows, points <= MostKept ? points : 0);
-  report_.converged = true; // so far
-  report_.end = SolveEnd::Converged;
   for (Id first = 0; first < points; first += ColumnsAtOnce)
   {
     const Id count = std::min(ColumnsAtOnce, points - first);

@@ -42,7 +42,7 @@ private:
   SparseMatrix loads_; // Aᵀ
   Eigen::MatrixXd betweenPoints_;
   MultiVector toCoefficients_; // empty for many points, whose products take solves instead
-  SolveReport report_;
+  SolveReport report_ = SolveReport::Solved();
 };
 
 /// Predicts a field with a constant unknown mean m (ordinary kriging). With the covariance C of the

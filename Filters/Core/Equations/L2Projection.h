@@ -22,7 +22,6 @@ public:
       multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
   {
     poisson_.estimateErrors = true;
-    report.converged = true;
     accuracy = SolutionAccuracy::Exact();
   }
 
@@ -36,7 +35,7 @@ public:
     return std::move(solution.coefficients);
   }
 
-  SolveReport report;
+  SolveReport report = SolveReport::Solved();
   SolutionAccuracy accuracy;
 
 private:

@@ -78,6 +78,15 @@ enum class SolveEnd
 
 struct SolveReport
 {
+  /// Returns a report without a solve, which has converged and from which KeepWorse starts.
+  static SolveReport Solved()
+  {
+    SolveReport report;
+    report.converged = true;
+    report.end = SolveEnd::Converged;
+    return report;
+  }
+
   bool converged = false; // end == Converged
   SolveEnd end = SolveEnd::IterationLimit;
   int iterations = 0;

@@ -153,7 +153,7 @@ HodgeDecomposition DecomposeField(const FiniteElementSpace& space, const Triangl
   load.col(1) = LoadOfRotation(space, v, onTriangles, edges, job.Part(0.15, 0.2));
 
   HodgeDecomposition parts;
-  parts.report.converged = true;
+  parts.report = SolveReport::Solved();
   parts.accuracy = SolutionAccuracy::Exact();
   parts.numberOfComponents = edges.numberOfComponents;
   parts.numberOfOneSided = edges.numberOfOneSided;

@@ -142,7 +142,7 @@ SignalInSpace ShapeInSpace(const FiniteElementSpace& space, const Job& job)
 {
   SignalInSpace signal;
   signal.coefficients = space.UnitLength() * space.EmbeddingOfMesh(job);
-  signal.report.converged = true;
+  signal.report = SolveReport::Solved();
   return signal;
 }
 

@@ -198,8 +198,7 @@ const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
     [&]
     {
       result_ = {};
-      result_.report.converged = true; // so far
-      result_.report.end = SolveEnd::Converged;
+      result_.report = SolveReport::Solved();
       weights_.reset();
       if (covariances_)
       {

@@ -40,13 +40,16 @@ std::string LabelOf(const std::string& property)
   return label;
 }
 
-void RequireInRange(const std::string& property, double value, double least, double most)
+std::string RefusalOf(const std::string& property, double value, double least, double most)
 {
+  if (std::isnan(value))
+  {
+    return LabelOf(property) + " is not a number.";
+  }
   if (std::isfinite(value) && value >= least && value <= most)
   {
-    return;
+    return {};
   }
-  RequireNumber(property, value);
   std::ostringstream message;
   message << LabelOf(property) << " is " << value << "; it must be ";
   if (least <= -Unbounded && most >= Unbounded)
@@ -61,7 +64,16 @@ void RequireInRange(const std::string& property, double value, double least, dou
   {
     message << "from " << least << " to " << most;
   }
-  throw InvalidInput(message.str() + ".");
+  return message.str() + ".";
+}
+
+void RequireInRange(const std::string& property, double value, double least, double most)
+{
+  const std::string refusal = RefusalOf(property, value, least, most);
+  if (!refusal.empty())
+  {
+    throw InvalidInput(refusal);
+  }
 }
 
 void RequireAtLeast(const std::string& property, double value, double least)
@@ -73,7 +85,7 @@ void RequireNumber(const std::string& property, double value)
 {
   if (std::isnan(value))
   {
-    throw InvalidInput(LabelOf(property) + " is not a number.");
+    throw InvalidInput(RefusalOf(property, value, value, value));
   }
 }
 

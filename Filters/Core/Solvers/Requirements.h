@@ -14,8 +14,11 @@ namespace gridfem
 /// Returns the label of a property in the panel: its name, with spaces between the words.
 std::string LabelOf(const std::string& property);
 
-/// Throws InvalidInput if a number is NaN, infinite or outside of [least, most]. The message has
-/// the label of the property, the value and the range.
+/// Returns why a number is refused that is NaN, infinite or outside of [least, most], or nothing.
+/// The message has the label of the property, the value and the range.
+std::string RefusalOf(const std::string& property, double value, double least, double most);
+
+/// Throws InvalidInput with that message.
 void RequireInRange(const std::string& property, double value, double least, double most);
 
 /// The same for a number without a largest value.

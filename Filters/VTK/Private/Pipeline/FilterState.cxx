@@ -40,15 +40,7 @@ void FilterState::RunTogether(const std::function<void()>& body)
 
 bool FilterState::NoteRange(const std::string& property, double value, double least, double most)
 {
-  std::string message;
-  try
-  {
-    RequireInRange(property, value, least, most);
-  }
-  catch (const InvalidInput& error)
-  {
-    message = error.what();
-  }
+  const std::string message = RefusalOf(property, value, least, most);
   const auto noted = refusals_.find(property);
   const bool isNew = message != (noted == refusals_.end() ? std::string() : noted->second);
   if (isNew)
