@@ -29,11 +29,15 @@ QDir Folder()
   return QDir("/nonexistent");
 }
 
-/// What an example shows, from the first words of its script.
+/// What an example shows, from the first words of its script. Empty if the script has no such
+/// words.
 QString TitleOf(const QString& path)
 {
   QFile file(path);
-  file.open(QIODevice::ReadOnly);
+  if (!file.open(QIODevice::ReadOnly))
+  {
+    return {};
+  }
   const QString text = QString::fromUtf8(file.readAll());
   const QRegularExpression begin("^\"\"\"A ParaView state: ([^.:]*)");
   QString title = begin.match(text).captured(1).simplified();

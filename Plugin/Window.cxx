@@ -4,6 +4,8 @@
 
 #include "vtkPVXMLElement.h"
 #include "vtkSMProxy.h"
+#include "vtkSMProxyManager.h"
+#include "vtkSMSessionProxyManager.h"
 
 #include <pqPVApplicationCore.h>
 #include <pqProxyGroupMenuManager.h>
@@ -11,16 +13,23 @@
 #include <QAction>
 #include <QApplication>
 #include <QMenu>
+#include <QStringList>
 #include <QTimer>
+#include <QVariant>
 #include <QWidget>
 
 namespace
 {
 
 /// An attribute of the hint ShowInMenu of the filter behind a menu entry. May be empty.
-QString Hint(pqProxyGroupMenuManager* filters, QAction* entry, const char* attribute)
+QString Hint(QAction* entry, const char* attribute)
 {
-  vtkSMProxy* filter = filters->getPrototype(entry);
+  const QStringList names = entry->data().toStringList(); // of the filter's group and the filter
+  vtkSMSessionProxyManager* proxies =
+    vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
+  vtkSMProxy* filter = proxies && names.size() == 2
+                         ? proxies->GetPrototypeProxy(names[0].toUtf8(), names[1].toUtf8())
+                         : nullptr;
   vtkPVXMLElement* hints = filter ? filter->GetHints() : nullptr;
   vtkPVXMLElement* shown = hints ? hints->FindNestedElementByName("ShowInMenu") : nullptr;
   return shown ? shown->GetAttributeOrEmpty(attribute) : "";
@@ -41,7 +50,7 @@ void Arrange(pqProxyGroupMenuManager* filters)
     menu->addSection(section);
     for (QAction* entry : entries)
     {
-      if (Hint(filters, entry, "section") == section)
+      if (Hint(entry, "section") == section)
       {
         menu->addAction(entry);
       }
@@ -55,12 +64,13 @@ void ListJobs(pqProxyGroupMenuManager* filters, QWidget* list)
   qDeleteAll(list->actions());
   for (QAction* entry : filters->actions())
   {
-    const QString jobs = Hint(filters, entry, "jobs");
+    const QString jobs = Hint(entry, "jobs");
     if (!jobs.isEmpty())
     {
       auto* found = new QAction(entry->text() + ": " + jobs, list);
       found->setObjectName(entry->objectName() + "Jobs");
       found->setEnabled(entry->isEnabled());
+      found->setData(entry->data());
       QObject::connect(found, &QAction::triggered, entry, &QAction::trigger);
       list->addAction(found);
     }
@@ -71,16 +81,12 @@ void ListJobs(pqProxyGroupMenuManager* filters, QWidget* list)
 /// which of them can be applied.
 void SearchJobs(pqProxyGroupMenuManager* filters)
 {
-#if __has_include("pqQuickLaunchDialogExtended.h")
-  static_cast<void>(filters);
-#else
   auto* list = new QWidget;
   QObject::connect(filters, &QObject::destroyed, list, &QObject::deleteLater);
   pqPVApplicationCore* core = pqPVApplicationCore::instance();
   core->registerForQuicklaunch(list);
   QObject::connect(core, &pqPVApplicationCore::aboutToShowQuickLaunch, filters,
     [filters, list] { ListJobs(filters, list); });
-#endif
 }
 
 /// Adds to the window that has the menu of filters. Returns false if there is none yet.

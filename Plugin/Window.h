@@ -6,8 +6,7 @@
 //   </Hints>
 //
 //   section  the part of the category's menu that has the filter
-//   jobs     other words that find the filter in ParaView's search (Ctrl+Space). From 5.13 on,
-//            ParaView also searches the documentation, and the jobs are not used
+//   jobs     other words that find the filter in ParaView's search (Ctrl+Space)
 #ifndef GridFEM_Window_h
 #define GridFEM_Window_h
 

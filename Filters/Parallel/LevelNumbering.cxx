@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <memory>
 
 namespace gridfem
 {
@@ -228,12 +228,12 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
 {
   LevelNumbering numbering;
   std::vector<Id> number;
-  std::optional<Touching> touching;
+  std::unique_ptr<const Touching> touching;
   HeldFunctions held;
   ranks.Together(
     [&]
     {
-      touching.emplace(partition, level, ranks.Rank());
+      touching = std::make_unique<const Touching>(partition, level, ranks.Rank());
       held = FunctionsByOwner(*touching, level, ranks);
     });
   const Communicator::Share share = ranks.ShareOf(static_cast<Id>(held.own.size()));

@@ -63,7 +63,7 @@ def first_apply(name, state, words="", **values):
 
 def look_at_modes():
     """Three modes and back to the first, then all of them, with another one chosen in the toolbar."""
-    first_apply("LaplaceSpectrum", "raw.LaplaceSpectrum", "eigenfunctions", Depth=DEPTH, NumberOfModes="8")
+    first_apply("LaplaceSpectrum", "raw.LaplaceSpectrum", "vibration", Depth=DEPTH, NumberOfModes="8")
     for button in (NEXT, NEXT, NEXT, FIRST):
         script.event(f"{TIME}{button}", "activate")
     script.save("raw.ModesPlayed")
