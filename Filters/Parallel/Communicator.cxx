@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <stdexcept>
 
 namespace gridfem
 {
@@ -85,6 +86,27 @@ int CountOf(Id items)
 }
 
 } // namespace
+
+void RequireCounts(const std::vector<Id>& received, const std::vector<Id>& expected)
+{
+  const auto [wrong, right] =
+    std::mismatch(received.begin(), received.end(), expected.begin(), expected.end());
+  if (wrong != received.end() && right != expected.end())
+  {
+    throw std::length_error("Rank " + std::to_string(wrong - received.begin()) + " has sent " +
+                            std::to_string(*wrong) + " items, but " + std::to_string(*right) +
+                            " are expected.");
+  }
+}
+
+void RequirePlace(Id place, Id places)
+{
+  if (place < 0 || place >= places)
+  {
+    throw std::out_of_range("A rank has sent place " + std::to_string(place) + ", but there are " +
+                            std::to_string(places) + ".");
+  }
+}
 
 Communicator::Communicator(MPI_Comm handle) : handle_(handle)
 {

@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <exception>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,25 @@ struct RankFailure : std::runtime_error
   RankFailure(int failed, const std::string& reason) : std::runtime_error(reason), rank(failed) {}
   int rank;
 };
+
+/// Throws if ranks have sent other numbers of items than this rank expects from them.
+void RequireCounts(const std::vector<Id>& received, const std::vector<Id>& expected);
+
+/// Throws if a rank has sent a place outside [0, places).
+void RequirePlace(Id place, Id places);
+
+/// The number of items in each list.
+template<class Item>
+std::vector<Id> SizesOf(const std::vector<std::vector<Item>>& lists)
+{
+  std::vector<Id> sizes;
+  sizes.reserve(lists.size());
+  for (const std::vector<Item>& list : lists)
+  {
+    sizes.push_back(static_cast<Id>(list.size()));
+  }
+  return sizes;
+}
 
 /// A handle that does not own the communicator. All functions but Size and Rank are collective: all
 /// ranks call them, in the same order.
@@ -123,15 +143,17 @@ public:
   }
 
   /// Sends messages[r] to rank r, and returns the messages that each rank has sent here.
+  /// @param expected  the number of items from each rank, if this rank knows it; all ranks throw if
+  ///                  a rank has sent another number
   template<class T>
-  std::vector<std::vector<T>> Exchange(const std::vector<std::vector<T>>& messages) const
+  std::vector<std::vector<T>> Exchange(const std::vector<std::vector<T>>& messages,
+    const std::optional<std::vector<Id>>& expected = {}) const
   {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::vector<Id> sent(size_);
+    const std::vector<Id> sent = SizesOf(messages);
     std::vector<const void*> out(size_);
     for (int r = 0; r < size_; ++r)
     {
-      sent[r] = static_cast<Id>(messages[r].size());
       out[r] = messages[r].data();
     }
     const std::vector<Id> received = this->ExchangeCounts(sent);
@@ -140,6 +162,10 @@ public:
     this->Together(
       [&]
       {
+        if (expected)
+        {
+          RequireCounts(received, *expected);
+        }
         for (int r = 0; r < size_; ++r)
         {
           result[r].resize(received[r]);

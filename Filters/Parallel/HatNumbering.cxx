@@ -112,7 +112,9 @@ std::vector<std::vector<int>> HoldersOf(const Communicator& ranks, const HatList
         auto next = told[home].begin();
         for (const Index hat : which[home])
         {
+          RequirePlace(0, told[home].end() - next);
           const int count = *next++;
+          RequirePlace(count, told[home].end() - next + 1);
           if (count > 1)
           {
             holders[hat].assign(next, next + count);

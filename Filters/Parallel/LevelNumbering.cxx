@@ -180,7 +180,7 @@ void AskForNumbers(const Communicator& ranks, const PatchLevel& level, const Hel
         }
       }
     });
-  told = ranks.Exchange(told);
+  told = ranks.Exchange(told, SizesOf(held.ghosts));
   for (int rank = 0; rank < ranks.Size(); ++rank)
   {
     for (std::size_t k = 0; k < held.ghosts[rank].size(); ++k)

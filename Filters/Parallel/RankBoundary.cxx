@@ -83,7 +83,7 @@ std::vector<TriangleEdge> EdgesOfHats(
         }
       }
     });
-  told = ranks.Exchange(told);
+  told = ranks.Exchange(told, SizesOf(open));
   for (int rank = 0; rank < ranks.Size(); ++rank)
   {
     for (std::size_t k = 0; k < told[rank].size(); ++k)

@@ -139,6 +139,7 @@ void RankHeat::AddOthers(const SparseMatrix& part, const EntriesOfRanks& message
   {
     for (const ToldEntry& entry : messages[neighbor.rank])
     {
+      RequirePlace(entry.row, static_cast<Id>(neighbor.functions.size()));
       const Index row = neighbor.functions[entry.row];
       const Index column = placeOf(entry.column);
       others.push_back({ row, column, entry.value });
@@ -170,7 +171,7 @@ void RankHeat::TakeOthers(MultiVector& u) const
         }
       }
     });
-  values = ranks_.Exchange(values);
+  values = ranks_.Exchange(values, SizesOf(heard_));
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < values[rank].size(); ++k)

@@ -74,6 +74,8 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
       {
         for (const MatrixEntry& entry : messages[neighbor.rank])
         {
+          RequirePlace(entry.row, static_cast<Id>(neighbor.functions.size()));
+          RequirePlace(entry.column, static_cast<Id>(neighbor.functions.size()));
           entries.push_back(
             { neighbor.functions[entry.row], neighbor.functions[entry.column], entry.value });
         }

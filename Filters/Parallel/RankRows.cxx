@@ -54,6 +54,8 @@ RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeig
     ghostsOfShared_.emplace_back();
     lower_ += neighbor.rank < ranks_.Rank() ? 1 : 0;
     rows += neighbor.functions.size();
+    RequireIndices(static_cast<double>(neighbor.functions.size()) * ColumnsPerMessage,
+      "values in a message between two ranks");
     for (const Index row : neighbor.functions)
     {
       all_.push_back(row);

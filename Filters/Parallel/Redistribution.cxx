@@ -42,37 +42,23 @@ std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& gri
   return indices;
 }
 
-template<class T>
-std::vector<Id> SizesOf(const std::vector<std::vector<T>>& lists)
+/// The numbers of values in rows that each rank sends.
+std::vector<Id> Values(std::vector<Id> rows, Id columns)
 {
-  std::vector<Id> sizes;
-  sizes.reserve(lists.size());
-  for (const auto& list : lists)
+  for (Id& count : rows)
   {
-    sizes.push_back(static_cast<Id>(list.size()));
+    count *= columns;
   }
-  return sizes;
+  return rows;
 }
 
-/// Throws if a rank has sent another number of values than this rank expects.
-void RequireSize(std::size_t size, Id rows, Id columns)
+/// Throws if a field has a row too few or too many. It would be read beyond its end, or wrong.
+void RequireRows(const MultiVector& field, Id rows)
 {
-  if (size != static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns))
+  if (field.rows() != rows)
   {
-    throw std::length_error("A rank has sent " + std::to_string(size) + " values, expected " +
-                            std::to_string(rows) + " rows of " + std::to_string(columns) + ".");
-  }
-}
-
-/// Throws if a rank has sent a place outside [0, places).
-void RequirePlaces(const std::vector<Index>& sent, Id places)
-{
-  const auto wrong = std::find_if(
-    sent.begin(), sent.end(), [&](Index place) { return place < 0 || place >= places; });
-  if (wrong != sent.end())
-  {
-    throw std::out_of_range("A rank has sent place " + std::to_string(*wrong) + ", but there are " +
-                            std::to_string(places) + ".");
+    throw std::length_error("A field has " + std::to_string(field.rows()) + " rows, but " +
+                            std::to_string(rows) + " are expected.");
   }
 }
 
@@ -182,6 +168,10 @@ void Redistribution::BuildMesh(std::vector<std::vector<Point>> points,
     }
     for (const Corners& corner : corners[rank])
     {
+      for (const Index point : corner)
+      {
+        RequirePlace(point, static_cast<Id>(points[rank].size()));
+      }
       triangles.push_back({ first + corner[0], first + corner[1], first + corner[2] });
     }
     points[rank] = {};
@@ -205,7 +195,7 @@ void Redistribution::BuildMesh(std::vector<std::vector<Point>> points,
   std::iota(trianglePlace_.begin(), trianglePlace_.end(), Index{ 0 });
 }
 
-MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
+MultiVector Redistribution::Send(const MultiVector& own, Id ownRows, const Lists& sent,
   const std::vector<Id>& expected, const std::vector<Index>& place) const
 {
   const Id columns = own.cols();
@@ -213,6 +203,7 @@ MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
   ranks_.Together(
     [&]
     {
+      RequireRows(own, ownRows);
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
         for (const Index row : sent[rank])
@@ -221,7 +212,7 @@ MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
         }
       }
     });
-  rows = ranks_.Exchange(rows);
+  rows = ranks_.Exchange(rows, Values(expected, columns));
   MultiVector received;
   ranks_.Together(
     [&]
@@ -230,7 +221,6 @@ MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
       std::size_t k = 0;
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
-        RequireSize(rows[rank].size(), expected[rank], columns);
         for (Id row = 0; row < expected[rank]; ++row)
         {
           std::copy_n(rows[rank].data() + row * columns, columns, received.row(place[k++]).data());
@@ -242,12 +232,12 @@ MultiVector Redistribution::Send(const MultiVector& own, const Lists& sent,
 
 MultiVector Redistribution::SendPoints(const MultiVector& own) const
 {
-  return this->Send(own, sentPoints_, receivedPoints_, pointPlace_);
+  return this->Send(own, numberOfOwnPoints_, sentPoints_, receivedPoints_, pointPlace_);
 }
 
 MultiVector Redistribution::SendTriangles(const MultiVector& own) const
 {
-  return this->Send(own, sentTriangles_, receivedTriangles_, trianglePlace_);
+  return this->Send(own, numberOfOwnTriangles_, sentTriangles_, receivedTriangles_, trianglePlace_);
 }
 
 std::vector<char> Redistribution::ReturnPoints(
@@ -259,6 +249,8 @@ std::vector<char> Redistribution::ReturnPoints(
   ranks_.Together(
     [&]
     {
+      RequireRows(rows, static_cast<Id>(pointPlace_.size()));
+      RequireRows(own, numberOfOwnPoints_);
       std::size_t k = 0;
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
@@ -275,7 +267,7 @@ std::vector<char> Redistribution::ReturnPoints(
       }
     });
   which = ranks_.Exchange(which);
-  values = ranks_.Exchange(values);
+  values = ranks_.Exchange(values, Values(SizesOf(which), columns));
   std::vector<char> isReturned;
   ranks_.Together(
     [&]
@@ -283,8 +275,10 @@ std::vector<char> Redistribution::ReturnPoints(
       isReturned.assign(numberOfOwnPoints_, 0);
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
-        RequireSize(values[rank].size(), static_cast<Id>(which[rank].size()), columns);
-        RequirePlaces(which[rank], static_cast<Id>(sentPoints_[rank].size()));
+        for (const Index point : which[rank])
+        {
+          RequirePlace(point, static_cast<Id>(sentPoints_[rank].size()));
+        }
       }
     });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
@@ -306,6 +300,7 @@ MultiVector Redistribution::SumTriangles(const MultiVector& rows) const
   ranks_.Together(
     [&]
     {
+      RequireRows(rows, static_cast<Id>(trianglePlace_.size()));
       std::size_t k = 0;
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
@@ -316,17 +311,9 @@ MultiVector Redistribution::SumTriangles(const MultiVector& rows) const
         }
       }
     });
-  parts = ranks_.Exchange(parts);
+  parts = ranks_.Exchange(parts, Values(SizesOf(sentTriangles_), columns));
   MultiVector sum;
-  ranks_.Together(
-    [&]
-    {
-      sum = MultiVector::Zero(numberOfOwnTriangles_, columns);
-      for (int rank = 0; rank < ranks_.Size(); ++rank)
-      {
-        RequireSize(parts[rank].size(), static_cast<Id>(sentTriangles_[rank].size()), columns);
-      }
-    });
+  ranks_.Together([&] { sum = MultiVector::Zero(numberOfOwnTriangles_, columns); });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < sentTriangles_[rank].size(); ++k)

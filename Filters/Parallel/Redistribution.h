@@ -71,8 +71,8 @@ private:
     std::vector<std::vector<Corners>>& corners) const;
   void BuildMesh(std::vector<std::vector<Point>> points, std::vector<std::vector<Corners>> corners,
     const Grid& grid);
-  MultiVector Send(const MultiVector& own, const Lists& sent, const std::vector<Id>& expected,
-    const std::vector<Index>& place) const;
+  MultiVector Send(const MultiVector& own, Id ownRows, const Lists& sent,
+    const std::vector<Id>& expected, const std::vector<Index>& place) const;
 
   Communicator ranks_;
   Lists sentTriangles_; // own triangles that go to each rank, ascending

@@ -97,9 +97,14 @@ std::vector<std::vector<double>> TriangleCopies::Answers(
 {
   const Id columns = rows.cols();
   std::vector<std::vector<double>> answers(ranks_.Size());
+  std::vector<Id> expected = SizesOf(asked_);
   ranks_.Together(
     [&]
     {
+      for (Id& count : expected)
+      {
+        count *= rowsEach * columns;
+      }
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
         for (const Index original : found_[rank])
@@ -115,7 +120,7 @@ std::vector<std::vector<double>> TriangleCopies::Answers(
         }
       }
     });
-  return ranks_.Exchange(answers);
+  return ranks_.Exchange(answers, expected);
 }
 
 void TriangleCopies::FillPoints(const Redistribution& distribution, MultiVector& atPoints) const
