@@ -3,6 +3,11 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 
+page=false
+if [ "${1:-}" = "--page" ]; then
+  page=true
+  shift
+fi
 groups=()
 for source in "$SOURCE"/Testing/Benchmarks/Benchmark*.cxx; do
   group="$(basename "$source" .cxx)"
@@ -12,12 +17,15 @@ done
 
 if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
   cat << HELP
-Usage: Testing/benchmark.sh [GROUP...]
+Usage: Testing/benchmark.sh [--page] [GROUP...]
 
 Prints the table of each group (default: all) and, for each row that has a bound, a line
   RATIO <name> <measured> <= <bound>
 or >=. Exit status 0 even when a bound is missed. The group figures draws the figures of the
 thesis into Testing/Benchmarks/Figures.
+--page also keeps the output of each group, with day, processor and commit, in
+Testing/Benchmarks/Measured, and writes it into Testing/Benchmarks/README.md. No number there is
+typed by hand.
 Groups: ${groups[*]}
 
 Environment: GRIDFEM_DATA_DIR  folder of the real meshes (default: ../shared/data)
@@ -110,8 +118,9 @@ CountMessages()
 
 # Waiting threads must not take processor time from working threads.
 export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
-for group in "${groups[@]}"; do
-  Say "$group"
+Measure()
+{
+  local group="$1"
   if [ "$group" = figures ]; then
     "$BUILD/bin/BenchmarkFigures" "$BUILD/figures" < /dev/null
     xvfb-run -a pvpython "$SOURCE/Testing/Benchmarks/draw_figures.py" "$BUILD/figures" \
@@ -130,5 +139,14 @@ for group in "${groups[@]}"; do
   fi
   if [ "$group" = setup ]; then
     "$SOURCE/build-benchmarks-vtk/bin/BenchmarkClipFilter" < /dev/null
+  fi
+}
+
+for group in "${groups[@]}"; do
+  Say "$group"
+  Measure "$group" | tee "$BUILD/$group.txt"
+  if [ "$page" = true ]; then
+    python3 "$SOURCE/Testing/Benchmarks/page.py" keep "$group" < "$BUILD/$group.txt"
+    python3 "$SOURCE/Testing/Benchmarks/page.py"
   fi
 done

@@ -58,7 +58,7 @@ MultiVector Values(const TriangleMesh& mesh, bool isSmooth)
   MultiVector f(static_cast<Id>(mesh.points.size()), 1);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
   {
-    const Vec3 p = (mesh.points[i] - low) / (high - low).maxCoeff();
+    const Vec3 p = (mesh.points[i] - low) / (high - low).maxCoeff<Eigen::PropagateNaN>();
     const double step = std::sin(40 * p[0] + 30 * p[1] * p[2]) > 0 ? 1.0 : -1.0;
     f(static_cast<Id>(i), 0) = isSmooth ? std::sin(6 * p[0] + 1) * std::cos(5 * p[1]) + p[2] * p[2]
                                         : step + std::sin(60 * p[2]);

@@ -3,10 +3,12 @@
 // "from the mesh on" is clip, functions, both hierarchies and ten distances. The peer is the heat
 // method of Crane, Weischedel and Wardetzky on hat functions with lumped mass and t = (mean edge)²,
 // by CHOLMOD. Both matrices have one analysis and are factorized once. A further source costs two
-// substitutions, with a gradient and a divergence between them. Times are the least of three runs.
-// The errors belong to one distance on surfaces where it is known, or computed exactly by CGAL.
+// substitutions, with a gradient and a divergence between them. The other peer is CGAL's heat
+// method with intrinsic Delaunay triangles, on one thread. Times are the least of three runs. The
+// errors belong to one distance on surfaces where it is known, or computed exactly by CGAL.
 #include "Cholmod.h"
 #include "DistanceErrors.h"
+#include "IntrinsicHeat.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "PolyhedralDistances.h"
@@ -22,6 +24,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 
 namespace
 {
@@ -66,6 +69,25 @@ void MeasureErrors(const std::vector<double>& found, const Exact& exact, Distanc
   times.mean = errors.mean;
 }
 
+/// Times the distances from all sources, with the errors of the first.
+/// @param from  the distances from a source
+template<class From>
+void MeasureSources(
+  const std::vector<Id>& sources, const Exact& exact, DistanceTimes& times, From&& from)
+{
+  for (std::size_t k = 0; k < sources.size(); ++k)
+  {
+    const Stopwatch watch;
+    const std::vector<double> found = from(sources[k]);
+    (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
+    if (k == 0 && !exact.empty())
+    {
+      MeasureErrors(found, exact, times);
+    }
+  }
+  times.furtherSource /= std::max<double>(1.0, double(sources.size()) - 1.0);
+}
+
 DistanceTimes MeasureGrid(
   const TriangleMesh& mesh, int depth, const std::vector<Id>& sources, const Exact& exact)
 {
@@ -85,17 +107,8 @@ DistanceTimes MeasureGrid(
   times.setup = setup.Seconds();
   SolveOptions solve;
   solve.tolerance = 1e-4;
-  for (std::size_t k = 0; k < sources.size(); ++k)
-  {
-    const Stopwatch watch;
-    const DistanceField field = distance.From({ sources[k] }, solve, Threads);
-    (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
-    if (k == 0 && !exact.empty())
-    {
-      MeasureErrors(field.atPoints, exact, times);
-    }
-  }
-  times.furtherSource /= std::max<double>(1.0, double(sources.size()) - 1.0);
+  MeasureSources(sources, exact, times,
+    [&](Id source) { return distance.From({ source }, solve, Threads).atPoints; });
   return times;
 }
 
@@ -189,21 +202,31 @@ DistanceTimes MeasureHats(
   const Stopwatch setup;
   const HatHeat heat(mesh);
   times.setup = setup.Seconds();
-  for (std::size_t k = 0; k < sources.size(); ++k)
-  {
-    double substitutions = 0.0;
-    const Stopwatch watch;
-    const std::vector<double> found = heat.From(sources[k], substitutions);
-    (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
-    times.substitutions += k == 0 ? 0.0 : substitutions;
-    if (k == 0 && !exact.empty())
+  double all = 0.0;
+  MeasureSources(sources, exact, times,
+    [&](Id source)
     {
-      MeasureErrors(found, exact, times);
-    }
+      double substitutions = 0.0;
+      std::vector<double> found = heat.From(source, substitutions);
+      all += source == sources.front() ? 0.0 : substitutions;
+      return found;
+    });
+  times.substitutions = all / std::max<double>(1.0, double(sources.size()) - 1.0);
+  return times;
+}
+
+DistanceTimes MeasureCgal(
+  const TriangleMesh& mesh, const std::vector<Id>& sources, const Exact& exact)
+{
+  DistanceTimes times;
+  const Stopwatch setup;
+  IntrinsicHeat heat(mesh);
+  if (!heat.IsManifold())
+  {
+    throw std::runtime_error("CGAL has no distances on a mesh that is no manifold.");
   }
-  const double further = std::max<double>(1.0, double(sources.size()) - 1.0);
-  times.furtherSource /= further;
-  times.substitutions /= further;
+  times.setup = setup.Seconds();
+  MeasureSources(sources, exact, times, [&](Id source) { return heat.From(source); });
   return times;
 }
 
@@ -236,6 +259,7 @@ void PrintTimes()
   const auto coarse = Fastest([&] { return MeasureGrid(mesh, 7, sources, exact); });
   const auto ours = Fastest([&] { return MeasureGrid(mesh, 8, sources, exact); });
   const auto peer = Fastest([&] { return MeasureHats(mesh, sources, exact); });
+  const auto cgal = Fastest([&] { return MeasureCgal(mesh, sources, exact); });
   const Table table({ "by", "set-up s", "first source s", "a further source s", "substitutions s",
     "all ten s", "largest error", "root mean square" });
   const auto row = [&](const char* name, const DistanceTimes& times)
@@ -248,6 +272,7 @@ void PrintTimes()
   row("grid, depth 7", coarse);
   row("grid, depth 8", ours);
   row("hats, CHOLMOD", peer);
+  row("hats, CGAL, intrinsic Delaunay", cgal);
   PrintAtLeast("distance/all-ten-faster-depth-7", peer.Total() / coarse.Total(), 2.0);
   PrintAtMost("distance/further-source-depth-7", coarse.furtherSource / peer.substitutions, 2.0);
   PrintAtLeast("distance/all-ten-faster-depth-8", peer.Total() / ours.Total(), 1.0);
@@ -271,6 +296,9 @@ void PrintErrors(
     row("grid, depth 8", [&] { return MeasureGrid(mesh, 8, sources, exact); });
   const DistanceTimes peer =
     row("hats, CHOLMOD", [&] { return MeasureHats(mesh, sources, exact); });
+  const DistanceTimes cgal =
+    row("hats, CGAL, intrinsic Delaunay", [&] { return MeasureCgal(mesh, sources, exact); });
+  PrintAtMost("distance/error-depth-8-over-intrinsic-" + name, ours.largest / cgal.largest, 1.0);
   PrintAtMost("distance/error-depth-7-" + name, coarse.largest / peer.largest, 1.0);
   PrintAtMost("distance/error-depth-8-" + name, ours.largest / peer.largest, 1.0);
   PrintAtMost("distance/mean-error-depth-8-" + name, ours.mean / peer.mean, 1.0);

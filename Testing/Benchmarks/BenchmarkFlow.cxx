@@ -119,6 +119,7 @@ struct FlowTimes
   double setup = 0.0;
   double update = 0.0;
   double step = 0.0;
+  double stepOfOneThread = 0.0;
   double iterations = 0.0;
   double error = 0.0;   // algebraic, of the step
   double tracked = 0.0; // ten steps with their set-up
@@ -177,6 +178,15 @@ FlowTimes MeasureGrid(const TriangleMesh& mesh, int depth, std::vector<Vec3>& mo
     truth.GoTo(2, before);
     truth.Advance(Threads);
     times.error = ShapeError(AsColumns(flow.Points()), AsColumns(truth.Points()));
+    GridFlow alone = grid;
+    alone.options.multigrid.threads = 1;
+    MeanCurvatureFlow onOneThread = alone.Make();
+    times.stepOfOneThread = SecondsOf(
+      [&]
+      {
+        onOneThread.GoTo(2, before);
+        onOneThread.Advance(1);
+      });
 
     const std::unique_ptr<FiniteElementSpace> copy = grid.space->Copy();
     SparseMatrix mass;
@@ -232,7 +242,8 @@ struct PeerSteps
   double Amg() const { return assembly + amgSetup + amgSolve; }
 };
 
-/// The better of the two in set-up and solve together.
+/// The better of the two in set-up and solve together, in one process, which is one thread. Columns
+/// are solved one by one, because neither library iterates on several with a preconditioner.
 void MeasureAmg(const HatStep& step, const Eigen::MatrixXd& exact, double error, PeerSteps& times)
 {
   const Eigen::MatrixXd residual = step.hats.mass * step.points - step.A * step.points;
@@ -316,16 +327,16 @@ void MeasureSubject(const Subject& subject, const Table& table)
     MeasureInOwnProcess<PeerSteps>([&] { return MeasurePeers(mesh, timeStep, times.error); });
   table.Row({ subject.name, Text("%.0f", times.vertices), Text("%.0f", times.functions),
     Text("%.2f", times.setup), Text("%.2f", times.update), Text("%.2f", times.step - times.update),
-    Text("%.0f", times.iterations), Text("%.1e", times.error), Text("%.1f", times.tracked),
-    Text("%.1f", times.rebuilt), Text("%.2f", peers.assembly), Text("%.2f", peers.factor),
-    Text("%.2f", peers.solve),
+    Text("%.2f", times.stepOfOneThread), Text("%.0f", times.iterations), Text("%.1e", times.error),
+    Text("%.1f", times.tracked), Text("%.1f", times.rebuilt), Text("%.2f", peers.assembly),
+    Text("%.2f", peers.factor), Text("%.2f", peers.solve),
     Text("%.2f", peers.amgSetup) + (peers.isGamg != 0.0 ? " GAMG" : " BoomerAMG"),
     Text("%.2f", peers.amgSolve) + Text(" (%.0f)", peers.amgIterations) });
   const std::string name = std::string("flow-") + subject.name;
   PrintAtMost(name + "-update-over-setup", times.update / times.setup, 0.3);
   PrintAtMost(name + "-tracked-over-rebuilt", times.tracked / times.rebuilt, 0.45);
   PrintAtLeast(name + "-cholmod-over-step", peers.Cholmod() / times.step, 3.0);
-  PrintAtLeast(name + "-amg-over-step", peers.Amg() / times.step, 1.5);
+  PrintAtLeast(name + "-amg-over-step-one-thread", peers.Amg() / times.stepOfOneThread, 1.5);
 }
 
 /// The flow on hats by CHOLMOD, a step further.
@@ -398,8 +409,8 @@ int main(int argc, char** argv)
               "[T Table 5.4]\n",
     Threads, TimeStep);
   const Table table({ "mesh", "vertices", "functions", "set-up", "update", "solve, points",
-    "iterations", "error", "ten steps tracked", "clipped again", "hat assembly", "CHOLMOD factor",
-    "solve 3", "AMG set-up", "solve 3 (iterations)" });
+    "step, 1 thread", "iterations", "error", "ten steps tracked", "clipped again", "hat assembly",
+    "CHOLMOD factor", "solve 3", "AMG set-up", "solve 3 (iterations)" });
   for (const Subject& subject : Subjects)
   {
     const bool isLarge = std::string(subject.name) == "large";

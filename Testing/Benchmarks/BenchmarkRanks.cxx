@@ -308,8 +308,10 @@ void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
     const Eigen::VectorXd values =
       peer->Solve(poisson.screeningWeight * load.col(0).tail(rows), Tolerance);
     const double seconds = peerSolve.Seconds();
-    double most[] = { rows > 0 ? (values - ours).cwiseAbs().maxCoeff() : 0.0,
-      rows > 0 ? ours.cwiseAbs().maxCoeff() : 0.0 };
+    const double difference =
+      rows > 0 ? (values - ours).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
+    double most[] = { std::isnan(difference) ? HUGE_VAL : difference, // MPI may drop NaN
+      rows > 0 ? ours.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0 };
     ranks.Maximum(most, 2);
     PrintPeer(ranks, cycle == benchmarks::DistributedCycle::Gamg ? "PETSc GAMG" : "hypre BoomerAMG",
       peerSetUp, seconds, peer->Iterations(), most[0] / most[1]);

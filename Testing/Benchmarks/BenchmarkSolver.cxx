@@ -4,6 +4,7 @@
 #include "Base/Parallel.h"
 #include "Discretization.h"
 #include "Hierarchy.h"
+#include "Largest.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "PeerTimes.h"
@@ -95,7 +96,7 @@ std::vector<Bound> RunCubes()
       table.Row({ Text("%g", angle), std::to_string(depth), Text("%.0f", cg.functions),
         Text("%.0f", cg.energy), Text("%.0f", cg.residual), Text("%.3f", cg.seconds),
         Text("%.1f", 1e3 * cg.seconds / cg.residual) });
-      worst = std::max(worst, cg.residual);
+      worst = testing::Larger(worst, cg.residual);
     }
     bounds.push_back({ "cube_worst_angle_iterations_to_residual_1e-8_depth" + std::to_string(depth),
       worst, double(bound) });

@@ -166,7 +166,7 @@ void RunRigidMotions(const NamedMesh& mesh)
       high = gridfem::testing::Larger(high, spectrum.at(mode));
     }
     const double spread = 2.0 * (high - low) / (high + low);
-    spread50 = mode < 50 ? std::max(spread50, spread) : spread50;
+    spread50 = mode < 50 ? gridfem::testing::Larger(spread50, spread) : spread50;
     spread100 = gridfem::testing::Larger(spread100, spread);
   }
   std::printf("\n%s, ten rigid motions, depth %d\n", mesh.name.c_str(), Depth);

@@ -236,8 +236,8 @@ public:
     {
       const double wanted = tolerance_ * (system_->Mass() * centered.col(c)).norm();
       Eigen::VectorXd change;
-      iterations = std::max(iterations,
-        amg->Solve(residual.col(c), change, std::min(0.5, wanted / residual.col(c).norm()), 100));
+      const double tolerance = std::min(0.5, wanted / residual.col(c).norm());
+      iterations = std::max(iterations, amg->Solve(residual.col(c), change, tolerance, 100));
       x_.col(c) += change;
     }
     return iterations;

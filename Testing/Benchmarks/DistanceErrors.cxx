@@ -18,7 +18,7 @@ DistanceErrors ErrorsOf(const std::vector<double>& found, const std::vector<doub
     if (std::isfinite(exact[i]))
     {
       const double error = std::abs(found[i] - exact[i]);
-      longest = std::max(longest, exact[i]);
+      longest = testing::Larger(longest, exact[i]);
       errors.largest = testing::Larger(errors.largest, error);
       errors.mean += error * error;
       count += 1.0;

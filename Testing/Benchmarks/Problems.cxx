@@ -20,7 +20,8 @@ double LargestQuotient(const Difference& error, const Product& massError, const 
 {
   const auto squares = error.cwiseProduct(massError).colwise().sum().eval();
   const auto norms = exact.cwiseProduct(massExact).colwise().sum().eval();
-  return std::sqrt(squares.cwiseQuotient(norms).maxCoeff());
+  const Eigen::RowVectorXd quotients = squares.cwiseQuotient(norms);
+  return std::sqrt(quotients.maxCoeff<Eigen::PropagateNaN>());
 }
 
 /// The grid's corner of every finest function, world units.
@@ -50,7 +51,7 @@ Box BoxOf(const TriangleMesh& mesh)
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  return { 0.5 * (low + high), (high - low).maxCoeff() };
+  return { 0.5 * (low + high), (high - low).maxCoeff<Eigen::PropagateNaN>() };
 }
 
 SpaceOptions OptionsOf(int depth, int threads, FunctionSupport support)

@@ -1,5 +1,7 @@
 #include "SurfaceDistance.h"
 
+#include "Largest.h"
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -148,7 +150,7 @@ SurfaceDistance DistanceBetween(
     if (bound[k] >= 0.0)
     {
       const double least = cells.Distance(points[k], bound[k]);
-      distance.largest = std::max(distance.largest, least);
+      distance.largest = testing::Larger(distance.largest, least);
       sum += least * least;
       count += 1.0;
     }

@@ -102,7 +102,7 @@ Solved SolveDistance(const Given& given, const Setting& setting)
 double LengthOf(const TriangleMesh& mesh)
 {
   const Bounds bounds = BoundsOf(mesh.points, UsedPoints(mesh));
-  return (bounds.high - bounds.low).maxCoeff();
+  return (bounds.high - bounds.low).maxCoeff<Eigen::PropagateNaN>();
 }
 
 /// Eigenvalues without a unit. Modes themselves depend on the choice of a basis.

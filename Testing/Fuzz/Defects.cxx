@@ -2,6 +2,7 @@
 
 #include "Grid/CopiedTriangles.h"
 #include "Grid/JoinSeams.h"
+#include "Largest.h"
 #include "Meshes.h"
 
 #include <algorithm>
@@ -178,7 +179,8 @@ double SafeTolerance(const TriangleMesh& mesh)
         shortest, (mesh.points[corner[k]] - mesh.points[corner[(k + 1) % 3]]).norm() / MostParts);
     }
   }
-  return std::min(SeamTolerance * (bounds.high - bounds.low).maxCoeff(), SeamShare * shortest);
+  return std::min(SeamTolerance * (bounds.high - bounds.low).maxCoeff<Eigen::PropagateNaN>(),
+    SeamShare * shortest);
 }
 
 double LargestCoordinate(const TriangleMesh& mesh)
@@ -186,7 +188,7 @@ double LargestCoordinate(const TriangleMesh& mesh)
   double largest = 0.0;
   for (const Vec3& point : mesh.points)
   {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+    largest = testing::Larger(largest, point.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
   return largest;
 }
@@ -368,7 +370,7 @@ MultiVector FirstTwo(const std::vector<Vec3>& values)
 std::vector<Vec3> Waves(Choice& choice, const TriangleMesh& mesh)
 {
   const Bounds bounds = BoundsOf(mesh.points);
-  const double size = (bounds.high - bounds.low).maxCoeff();
+  const double size = (bounds.high - bounds.low).maxCoeff<Eigen::PropagateNaN>();
   const Vec3 wave[] = { 3.0 * choice.Vector(), 8.0 * choice.Vector() };
   std::vector<Vec3> values;
   for (const Vec3& point : mesh.points)

@@ -26,10 +26,11 @@ void RequireMeans(const FiniteElementSpace& space, const MultiVector& load,
   const ComponentMeans means(components.ofFunction, space.Integrals(), components.count, 1);
   const MultiVector wanted = means.OfIntegrals(load);
   const MultiVector found = means.OfFunction(coefficients);
-  const double size = coefficients.size() > 0 ? coefficients.cwiseAbs().maxCoeff() : 0.0;
+  const double size =
+    coefficients.size() > 0 ? coefficients.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
   // Means of components without area are undefined. Rounding grows with the number of functions.
   const bool isKept = wanted.size() == 0 || !outcome.converged ||
-                      (wanted - found).cwiseAbs().maxCoeff() <= 1e-9 * size;
+                      (wanted - found).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e-9 * size;
   outcome.Require(isKept, "the mean is not kept");
 }
 
@@ -169,8 +170,9 @@ void FindSpectrum(Choice& choice, RandomSurface& surface, Outcome& outcome)
   MultiVector massX;
   Multiply(space.Matrix(0, 1.0, 0.0), spectrum.vectors, massX);
   const Eigen::MatrixXd gram = spectrum.vectors.transpose() * massX;
-  outcome.Require(
-    (gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff() < 1e-3,
+  outcome.Require((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols()))
+                      .cwiseAbs()
+                      .maxCoeff<Eigen::PropagateNaN>() < 1e-3,
     "eigenfunctions are not orthonormal");
   PointModes modes{ spectrum.eigenvalues, space.ValuesAtPoints(spectrum.vectors), 1.0 };
   const std::vector<Id> sources = RandomPoints(choice, *surface.mesh, 3);

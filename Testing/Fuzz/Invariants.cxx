@@ -1,5 +1,6 @@
 #include "Invariants.h"
 
+#include "Largest.h"
 #include "Meshes.h"
 
 #include <algorithm>
@@ -174,13 +175,13 @@ double Difference(const TriangleMesh& mesh, const MultiVector& u,
 double LargestCoordinate(const TriangleMesh& mesh)
 {
   const auto [low, high] = BoundsOfUsed(mesh);
-  return low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  return low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff<Eigen::PropagateNaN>();
 }
 
 double ExtentOf(const TriangleMesh& mesh)
 {
   const auto [low, high] = BoundsOfUsed(mesh);
-  return (high - low).maxCoeff();
+  return (high - low).maxCoeff<Eigen::PropagateNaN>();
 }
 
 /// Returns the largest relative change of lengths on the triangles that rounding of the coordinates
@@ -200,7 +201,7 @@ double RoundingOn(const TriangleMesh& mesh)
     bool isCollapsed = false;
     for (const Vec3& e : edge)
     {
-      longest = std::max(longest, e.norm());
+      longest = testing::Larger(longest, e.norm());
       isCollapsed = isCollapsed || e.isZero(0.0);
     }
     const double height = edge[0].cross(edge[1]).norm() / longest;
@@ -357,8 +358,8 @@ void RequireNoPlaceOfHats(Choice& choice, const RandomSurface& surface, Outcome&
   const double before = EnergyOf(*here.space, ofHere, HatsWith(here, v));
   const double after = EnergyOf(*there.space, ofThere, HatsWith(there, v));
   const double allowed = 1e-11 + 10.0 * rounding;
-  const double canceled =
-    1e-14 * TraceOf(here.space->Matrix(0, ofHere, 1.0)) * v.cwiseAbs2().maxCoeff();
+  const double canceled = 1e-14 * TraceOf(here.space->Matrix(0, ofHere, 1.0)) *
+                          v.cwiseAbs2().maxCoeff<Eigen::PropagateNaN>();
   outcome.Require(
     std::abs(after - before) <= allowed * before + canceled, "the place changes energies");
 
@@ -385,7 +386,7 @@ double Displacement(const TriangleMesh& mesh, const Grid& grid)
   double largest = 0.0;
   for (const Vec3& point : mesh.points)
   {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+    largest = testing::Larger(largest, point.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
   return 4.0 * std::max(1e-10, 2e-15 * largest / grid.spacing);
 }

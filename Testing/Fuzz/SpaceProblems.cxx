@@ -3,6 +3,7 @@
 #include "RandomProblem.h"
 
 #include "Integrals/TriangleMetric.h"
+#include "Largest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ bool IsSymmetric(const SparseMatrix& A)
   double largest = 0.0;
   for (std::size_t k = 0; k < A.value.size(); ++k)
   {
-    largest = std::max(largest, std::abs(A.value[k]));
+    largest = testing::Larger(largest, std::abs(A.value[k]));
   }
   for (std::size_t k = 0; k < A.value.size(); ++k)
   {
@@ -102,9 +103,9 @@ void RequireMatrices(
     MultiVector product;
     Multiply(stiffness, MultiVector::Ones(stiffness.columns, 1), product);
     const std::vector<double> diagonal = stiffness.Diagonal();
-    largest = std::accumulate(
-      diagonal.begin(), diagonal.end(), largest, [](double a, double b) { return std::max(a, b); });
-    outcome.Require(product.size() == 0 || product.cwiseAbs().maxCoeff() <= 1e-12 * largest,
+    largest = std::accumulate(diagonal.begin(), diagonal.end(), largest, testing::Larger);
+    outcome.Require(
+      product.size() == 0 || product.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= 1e-12 * largest,
       "constants have energy");
     if (level + 1 < space.NumberOfLevels() && level >= firstNested)
     {

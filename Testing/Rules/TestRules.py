@@ -15,9 +15,10 @@ import unittest
 import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "Testing"))
+sys.path += [str(ROOT / "Testing"), str(ROOT / "Testing/Benchmarks")]
 
 import mutants
+import page
 import results
 
 DOCUMENTATION = ROOT / "Plugin/Documentation"
@@ -222,7 +223,7 @@ class Tests(Rule):
         """std::max(a, NaN) is a, and so is Eigen's maxCoeff(): a result of NaN would have no error."""
         blind = re.compile(r"\b([\w.]+)\s=\s[^;{}]*std::max\(\{?\s*\1,[^;]*(?:std::abs|acos|\.norm\()|\.maxCoeff\(\)")
         offences = []
-        for folder in ("Core", "Parallel", "Support", "VTK"):
+        for folder in ("Benchmarks", "Core", "Fuzz", "Parallel", "Support", "VTK"):
             for p in sources(f"Testing/{folder}"):
                 text = p.read_text()
                 offences += [f"{relative(p)}:{text.count(chr(10), 0, found.start()) + 1}"
@@ -285,6 +286,41 @@ class Checks(Rule):
         self.assertIn("1 skipped: " + results.WITHOUT_MESHES, lines)
         with unittest.mock.patch.dict("os.environ", {"GRIDFEM_DATA_DIR": str(ROOT)}):
             self.assertTrue(self.said(ran + [skip.format("Skipped\nno real mesh knot.ply\n")], True)[1])
+
+
+class Benchmarks(Rule):
+    """The page of the benchmarks has the numbers that they printed."""
+
+    def test_the_page_is_what_the_script_writes(self):
+        text = page.PAGE.read_text()
+        outputs = page.kept_outputs()
+        self.assertEqual(page.filled(text, outputs), text, "Run Testing/Benchmarks/page.py.")
+        groups = sorted(p.stem[len("Benchmark"):].lower()
+                        for p in (ROOT / "Testing/Benchmarks").glob("Benchmark*.cxx"))
+        self.assertEqual(groups, sorted(re.findall(r"^<!-- measured (\w+) -->$", text, re.M)))
+        self.assertEqual([], sorted(set(outputs) - set(groups)))
+        unmeasured = re.findall(r"^<!-- measured (\w+) -->\n<!-- end \1 -->$", text, re.M)
+        self.assertEqual(sorted(set(groups) - set(outputs)), sorted(unmeasured), "These blocks were typed by hand.")
+
+    def test_every_table_names_day_processor_and_command(self):
+        lines = page.PAGE.read_text().splitlines()
+        origin = re.compile(r"\s*\*\d+ \w+ 20\d\d, [^:]+: .+\*")
+        offences = [f"line {k + 1}: {line}" for k, line in enumerate(lines)
+                    if re.match(r"\s*\|", line) and not re.match(r"\s*\|", lines[k - 1])
+                    and not origin.fullmatch(lines[k - 2])]
+        self.assertNothing(offences, "Tables without a line of their day, processor and command:")
+
+    def test_what_programs_print_becomes_tables(self):
+        kept = "1 May 2030, Chip, 2 processors, at abc\n\nCycle of 3 | 4\n\n| mesh   | s   |\n|--------|-----|\n" \
+               "| knot   | 0.5 |\n| a, b   |     |\nRATIO odd/one 1 <= 2\nRATIO two 3 >= 2\nIt ends.\n"
+        written = page.filled("A\n<!-- measured odd -->\nold\n<!-- end odd -->\nB", {"odd": kept})
+        self.assertEqual(written, "\n".join((
+            "A", "<!-- measured odd -->", "", "Cycle of 3 | 4", "",
+            "*1 May 2030, Chip, 2 processors, at abc: `./Testing/benchmark.sh odd`*", "",
+            "| mesh | s |", "|---|---|", "| knot | 0.5 |", "| a, b |  |", "",
+            "    RATIO odd/one 1 <= 2", "    RATIO two 3 >= 2", "", "It ends.", "", "<!-- end odd -->", "B")))
+        self.assertEqual(page.filled(written, {"odd": kept}), written)
+        self.assertRaises(KeyError, page.filled, "A", {"odd": kept})
 
 
 class Examples(Rule):

@@ -33,7 +33,7 @@ double SquaredSide(const TriangleMesh& mesh)
   {
     box.extend(point);
   }
-  const double side = box.sizes().maxCoeff();
+  const double side = box.sizes().maxCoeff<Eigen::PropagateNaN>();
   return side * side;
 }
 

@@ -1,7 +1,7 @@
 #include "PolyhedralDistances.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
+#include "CgalSurface.h"
+
 #include <CGAL/Surface_mesh_shortest_path.h>
 
 #include <limits>
@@ -13,29 +13,19 @@ namespace gridfem::benchmarks
 namespace
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using Paths =
-  CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<Kernel, Surface>>;
+using Paths = CGAL::Surface_mesh_shortest_path<
+  CGAL::Surface_mesh_shortest_path_traits<CgalKernel, CgalSurface>>;
 
 } // namespace
 
 std::vector<double> PolyhedralDistances(
   const TriangleMesh& mesh, Id source, const std::vector<Id>& targets)
 {
-  Surface surface;
-  std::vector<Surface::Vertex_index> vertex;
-  for (const Vec3& point : mesh.points)
+  CgalSurface surface;
+  const std::vector<CgalSurface::Vertex_index> vertex = FillSurface(mesh, surface);
+  if (vertex.empty())
   {
-    vertex.push_back(surface.add_vertex({ point[0], point[1], point[2] }));
-  }
-  for (const auto& corner : mesh.triangles)
-  {
-    if (surface.add_face(vertex[corner[0]], vertex[corner[1]], vertex[corner[2]]) ==
-        Surface::null_face())
-    {
-      return {};
-    }
+    return {};
   }
   Paths paths(surface);
   paths.add_source_point(vertex[source]);
