@@ -131,6 +131,17 @@ Number DataMessage::TakeCount(std::size_t bytesOfEach)
   return count;
 }
 
+bool DataMessage::TakeTruth()
+{
+  const auto byte = this->Take<unsigned char>();
+  if (byte > 1)
+  {
+    throw std::runtime_error("A message between ranks is damaged: it has " + std::to_string(byte) +
+                             " where 0 or 1 belongs.");
+  }
+  return byte == 1;
+}
+
 void DataMessage::TakeBytes(void* bytes, std::size_t count)
 {
   this->RequireLeft(static_cast<double>(count));

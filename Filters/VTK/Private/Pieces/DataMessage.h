@@ -22,7 +22,7 @@ namespace gridfem
 {
 
 /// A message. Its parts come out in the order in which they were put in. Taking throws
-/// std::runtime_error if the message ends before, or names sizes that do not fit it.
+/// std::runtime_error if the message ends before, or has a size or a number that cannot be.
 class DataMessage
 {
 public:
@@ -42,6 +42,10 @@ public:
   template<class Number>
   Number Take()
   {
+    if constexpr (std::is_same_v<Number, bool>)
+    {
+      return this->TakeTruth();
+    }
     Number number{};
     this->TakeBytes(&number, sizeof(number));
     return number;
@@ -73,6 +77,8 @@ public:
 private:
   void PutBytes(const void* bytes, std::size_t count);
   void TakeBytes(void* bytes, std::size_t count);
+  /// Takes a byte that is 0 or 1. No other byte is a bool.
+  bool TakeTruth();
   /// Takes the number of things that follow, each of at least so many bytes.
   template<class Number>
   Number TakeCount(std::size_t bytesOfEach);
