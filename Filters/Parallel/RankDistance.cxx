@@ -185,6 +185,10 @@ DistanceField RankDistance::From(
   field.heatConverged = heat.converged;
   field.heatSweeps = heat.sweeps;
   field.unreached = heat.unreached;
+  std::vector<double> ranksWithCold = { double(
+    IsNegativeAnywhere(levels_.OfGrid().ValuesAtPoints(heat.coefficients))) };
+  SumOverProcesses(levels_.Distributed(0), ranksWithCold);
+  field.heatOscillates = ranksWithCold[0] > 0.0;
   field.accuracy.algebraic = solution.accuracy.algebraic;
   field.report = std::move(solution.report);
   field.report.converged = field.report.converged && field.heatConverged && field.unreached == 0;

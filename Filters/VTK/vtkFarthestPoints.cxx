@@ -23,11 +23,16 @@ vtkFarthestPoints::vtkFarthestPoints() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->Tolerance = 1e-4;
-  this->NormalStabilization = 0.1;
+  this->NormalStabilization = gridfem::DistanceOptions::LeastStabilization;
   this->MaximumIterations = 200;
 }
 
 vtkFarthestPoints::~vtkFarthestPoints() = default;
+
+double vtkFarthestPoints::GetNormalStabilizationMinValue()
+{
+  return gridfem::DistanceOptions::LeastStabilization;
+}
 
 void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

@@ -55,6 +55,11 @@ public:
   ///@}
 
   /**
+   * Distances need a larger stabilization than other results: 0.1 to 1.
+   */
+  double GetNormalStabilizationMinValue() override;
+
+  /**
    * The input of port 1: the basis.
    */
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }

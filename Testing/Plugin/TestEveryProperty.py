@@ -101,7 +101,7 @@ OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5]
                 "ObservationArray": [[POINTS, "p_known"]],
                 "MaskArray": [[POINTS, "p_other_few"], ["CELLS", "c_few"]],
                 "FirstPointId": [7], "InsideLabel": [0], "ReferenceLabel": [1, 0],
-                "NormalStabilization": [1e-3], "MaximumIterations": [2], "Tolerance": [1e-3]}
+                "NormalStabilization": [0.5], "MaximumIterations": [2], "Tolerance": [1e-3]}
 ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end an iteration early
 # These filters start from the last solution. It changes the last digits and the report, not the solution.
 WARM = {"ScreenedPoisson", "SurfaceDetail"}

@@ -180,6 +180,11 @@ Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSourc
   return away;
 }
 
+bool IsNegativeAnywhere(const MultiVector& heatAtPoints)
+{
+  return (heatAtPoints.array() < 0.0).any();
+}
+
 std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
   const std::vector<double>& zero, const SourceMarks& marks)
 {
@@ -372,6 +377,8 @@ DistanceField GeodesicDistance::FromAll(
   field.heatConverged = heat.converged;
   field.heatSweeps = heat.sweeps;
   field.unreached = heat.unreached;
+  field.heatOscillates =
+    IsNegativeAnywhere(HeatSpace(*space_).ValuesAtPoints(heat.coefficients, job.threads));
   const MultiVector load = sources.loadOfDistance(heat.coefficients, job.Part(0.45, 0.55));
   const MultiVector distance = this->Solve(load, solve, field, job.progress.Part(0.55, 0.8));
   field.atPoints = sources.shifted(distance, job.Part(0.8, 0.85));
@@ -394,7 +401,8 @@ void GeodesicDistance::EstimateErrors(
     MultiVector::Zero(load.rows(), 1), load, options, job.progress.Part(0.8, 0.9));
   const std::vector<double> atPoints = sources.shifted(coarser.coefficients, job.Part(0.9, 1.0));
   CompareDistances(*mesh_, atPoints, field);
-  field.accuracy.isTrusted = heat.converged && field.heatConverged && field.unreached == 0;
+  field.accuracy.isTrusted =
+    heat.converged && field.heatConverged && field.unreached == 0 && !field.heatOscillates;
 }
 
 DistanceField GeodesicDistance::From(

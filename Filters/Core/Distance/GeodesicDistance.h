@@ -23,6 +23,10 @@ struct DistanceOptions
   /// With a smaller smoothing the heat oscillates, and distances may be wrong by half their range.
   static constexpr double LeastSmoothing = 0.9;
 
+  /// With a smaller normal stabilization of the grid the heat oscillates, too: at sharp edges,
+  /// functions that are almost zero on the surface let it change its sign.
+  static constexpr double LeastStabilization = 0.1;
+
   /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. A larger
   /// value takes more time. It also rounds off the distance where fronts meet and between near
   /// sources, by about sqrt(t) / 2.
@@ -42,9 +46,11 @@ struct DistanceField
   bool heatConverged = false;
   double heatSweeps = 0.0; // see HeatField
   Id unreached = 0;        // functions too far for any heat; their distances are wrong
+  /// The heat is negative at a point, so that its direction may be wrong around and behind it.
+  bool heatOscillates = false;
   /// Unknown unless it was asked for. It compares with the distance on functions twice as far from
   /// each other. On real meshes it is within a factor of four, mostly of two. The largest error is
-  /// in world units. Trusted if heat reached every function and converged.
+  /// in world units. Trusted if heat reached every function, converged, and oscillates nowhere.
   SolutionAccuracy accuracy;
 };
 
@@ -144,6 +150,9 @@ std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& p
 
 /// The factor of the heat's direction on each triangle: -1, or 0 if all corners are sources.
 Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource);
+
+/// Whether heat is negative at a point. Exact heat never is.
+bool IsNegativeAnywhere(const MultiVector& heatAtPoints);
 
 /// Shifts values at points to a distance: 0 at sources, elsewhere at least the straight distance.
 /// @param component  of every point; -1 if no function reaches it

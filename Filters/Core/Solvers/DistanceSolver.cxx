@@ -196,7 +196,7 @@ SurfaceCurve BorderOf(
 SurfaceOptions DistanceSolver::SurfaceDefaults()
 {
   SurfaceOptions options;
-  options.choice.normalStabilization = 0.1; // with less, hidden functions spoil small numbers
+  options.choice.normalStabilization = DistanceOptions::LeastStabilization;
   options.space.joinAtPoints = true;
   options.functionsPerPoint = AsManyAsWanted;
   return options;

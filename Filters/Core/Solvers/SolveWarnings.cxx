@@ -223,6 +223,12 @@ std::vector<std::string> WarningsOf(const DistanceField& field, double tolerance
       " functions are so far that hardly any heat arrives. Choose a larger Smoothing "
       "or a smaller Depth.");
   }
+  if (field.heatOscillates)
+  {
+    sentences.push_back(
+      "The heat is negative in places: the distance may be wrong there and beyond. Choose a larger "
+      "Smoothing, such as 2.");
+  }
   if (!field.heatConverged)
   {
     sentences.push_back(

@@ -7,6 +7,7 @@
 #include "Distance/CurveDistance.h"
 #include "Distance/DistantHeat.h"
 #include "EitherSpace.h"
+#include "Solvers/SolveWarnings.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -176,6 +177,34 @@ TEST(GeodesicDistance, OnASphereAtTheDefaultDepthIsWithinOnePercent)
   EXPECT_LT(ErrorOnSphere(false, 7, 60), 0.01);
 }
 
+/// From the middle of a face of a turned cube. With a weak stabilization the heat is negative
+/// beyond the edges, and distances are wrong; this must be told.
+TEST(GeodesicDistance, TellsWhenTheHeatOscillatesAtEdges)
+{
+  const TriangleMesh cube = Box(16);
+  const Id source = NearestPoint(cube, { 0.5, 0.5, 1.0 });
+  const Id opposite = NearestPoint(cube, { 0.5, 0.5, 0.0 });
+  for (const Vec3& axis : { Vec3(3, 5, 8), Vec3(1, -2, 0.5), Vec3(0.2, 1, 1) })
+  {
+    const auto mesh = std::make_shared<const TriangleMesh>(Transform(cube, axis, 1.1));
+    const auto from = [&](double stabilization)
+    {
+      DistanceOptions options;
+      options.estimateErrors = true;
+      const GeodesicDistance method(BuildEither(*mesh, false, 5, stabilization), mesh, options);
+      return method.From({ source }, Solve());
+    };
+    const DistanceField strong = from(DistanceOptions::LeastStabilization);
+    EXPECT_FALSE(strong.heatOscillates);
+    EXPECT_TRUE(strong.accuracy.isTrusted);
+    EXPECT_NEAR(strong.atPoints[opposite], 2.0, 0.06);
+    const DistanceField weak = from(1e-4);
+    EXPECT_TRUE(weak.heatOscillates);
+    EXPECT_FALSE(weak.accuracy.isTrusted);
+    EXPECT_FALSE(WarningsOf(weak, 1e-4).empty());
+  }
+}
+
 TEST(GeodesicDistance, SaysHowFarItIsOff)
 {
   // Great circles on a sphere, and two sources on a square, whose fronts meet at a crease.
@@ -245,9 +274,12 @@ TEST(GeodesicDistance, DoesNotDependOnTheTriangles)
   };
   const std::vector<double> expected = at(coarse);
   // Near the source, distances are off by a part of sqrt(t), which is 0.066 at this depth.
-  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, DistancesInSpace(coarse, { 8 })), 0.05);
-  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(needles)), 2e-4); // other quadrature
-  EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(soup)), 1e-11);   // other order of sums
+  EXPECT_LT(
+    LargestError({ expected, {}, false, 0, 0, false, {} }, DistancesInSpace(coarse, { 8 })), 0.05);
+  EXPECT_LT(
+    LargestError({ expected, {}, false, 0, 0, false, {} }, at(needles)), 2e-4); // other quadrature
+  EXPECT_LT(
+    LargestError({ expected, {}, false, 0, 0, false, {} }, at(soup)), 1e-11); // other order of sums
 }
 
 /// Two sheets a third of a cell apart, joined at one edge. The path leads around this edge.

@@ -200,6 +200,14 @@ TriangleMesh Crumb()
 } // namespace
 
 /// The first point is the point with the least id, for any order of the triangles.
+TEST(DistanceSolver, RefusesAStabilizationThatMakesTheHeatOscillate)
+{
+  SurfaceOptions options = AtDepth(3);
+  EXPECT_NO_THROW(DistanceSolver::Solve(Sphere, {}, {}, options));
+  options.choice.normalStabilization = 0.05;
+  EXPECT_THROW(DistanceSolver::Solve(Sphere, {}, {}, options), InvalidInput);
+}
+
 TEST(DistanceSolver, StartsAtTheFirstPointWhereNoSourceIsChosen)
 {
   TriangleMesh mesh = *Sphere;
