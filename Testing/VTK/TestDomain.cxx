@@ -3,6 +3,10 @@
 
 #include "AllFilters.h"
 
+#include "vtkExtractSelection.h"
+#include "vtkIdTypeArray.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +21,7 @@ namespace
 {
 
 constexpr int DomainIndex = 9;
+constexpr int PointsThenCells = vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
 
 bool IsInside(const TriangleMesh& mesh, std::size_t triangle)
 {
@@ -188,6 +193,52 @@ TEST_P(Domain, OfPointsTakesTheCellsWithAllPointsInside)
   named->SetInputArrayToProcess(DomainIndex, 0, 0, Points, "region");
   named->Update();
   EXPECT_EQ(Results(whole, named), onCells);
+}
+
+/// Extract Selection with PreserveTopology keeps the surface and adds the array vtkInsidedness.
+TEST_P(Domain, TakesASelectionThatKeepsTheSurface)
+{
+  const auto isHigh = [&](Id point) { return sphere.points[point][2] > -0.3; };
+  for (const int fieldType : { vtkSelectionNode::CELL, vtkSelectionNode::POINT })
+  {
+    auto* region = whole->GetCellData()->GetArray("region");
+    vtkNew<vtkIdTypeArray> ids;
+    for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+    {
+      const auto& corners = sphere.triangles[t];
+      const bool isInside = std::all_of(corners.begin(), corners.end(), isHigh);
+      region->SetComponent(static_cast<vtkIdType>(t), 0, isInside ? 1.0 : 0.0);
+      if (isInside && fieldType == vtkSelectionNode::CELL)
+      {
+        ids->InsertNextValue(static_cast<vtkIdType>(t));
+      }
+    }
+    for (Id point = 0; point < static_cast<Id>(sphere.points.size()); ++point)
+    {
+      if (isHigh(point) && fieldType == vtkSelectionNode::POINT)
+      {
+        ids->InsertNextValue(point);
+      }
+    }
+    vtkNew<vtkSelectionNode> node;
+    node->SetContentType(vtkSelectionNode::INDICES);
+    node->SetFieldType(fieldType);
+    node->SetSelectionList(ids);
+    vtkNew<vtkSelection> selection;
+    selection->AddNode(node);
+    vtkNew<vtkExtractSelection> extract;
+    extract->PreserveTopologyOn();
+    extract->SetInputData(0, whole);
+    extract->SetInputData(1, selection);
+    extract->Update();
+    auto* marked = vtkPolyData::SafeDownCast(extract->GetOutputDataObject(0));
+    ASSERT_NE(marked, nullptr);
+    const auto expected = Results(whole, this->Run(whole, true));
+    const auto filter = this->Run(marked, false);
+    filter->SetInputArrayToProcess(DomainIndex, 0, 0, PointsThenCells, "vtkInsidedness");
+    filter->Update();
+    EXPECT_EQ(Results(marked, filter), expected) << fieldType;
+  }
 }
 
 TEST_P(Domain, AChangeOfTheRegionIsSeen)
