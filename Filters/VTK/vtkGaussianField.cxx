@@ -39,6 +39,7 @@ struct vtkGaussianField::Internals
 {
   gridfem::GaussianFieldSolver Solver;
   const gridfem::GaussianFieldSolver::Result* Result = nullptr; // of this run
+  std::string FarObservations;                                  // a warning of this run
 };
 
 vtkGaussianField::vtkGaussianField()
@@ -72,8 +73,11 @@ gridfem::GivenConstraints vtkGaussianField::FindObservations(vtkDataSet* places)
   {
     const gridfem::InputArray array =
       gridfem::FindArrayOfPlaces(this, places, "Observations", "Observation Array");
-    observations.find = [array, places, &surface]
-    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places, "Observations"); };
+    observations.find = [this, array, places, &surface]
+    {
+      return gridfem::ValuesOfPlaces(
+        array, surface.Mesh(), places, "Observations", this->Data->FarObservations);
+    };
     return observations;
   }
   const gridfem::InputArray array = surface.Find(0, "Observation Array");
@@ -95,6 +99,7 @@ void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  this->Data->FarObservations.clear();
   gridfem::GaussianFieldSolver::Options options;
   options.equation = state.options;
   options.range = this->Range;
@@ -111,6 +116,10 @@ void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVect
   output->ShallowCopy(input);
   this->WriteResult(output);
   gridfem::AddReport(result.report, output);
+  if (!this->Data->FarObservations.empty())
+  {
+    this->Warn({ this->Data->FarObservations });
+  }
   this->Warn(result.warnings);
 }
 

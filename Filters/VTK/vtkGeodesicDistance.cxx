@@ -24,6 +24,7 @@ struct vtkGeodesicDistance::Internals
   std::vector<gridfem::Id> SourceIds;
   gridfem::DistanceSolver Solver;
   gridfem::DistanceSolver::Input Input; // of this run
+  std::string FarSources;               // a warning of this run
 };
 
 vtkGeodesicDistance::vtkGeodesicDistance()
@@ -31,11 +32,16 @@ vtkGeodesicDistance::vtkGeodesicDistance()
 {
   this->SetNumberOfInputPorts(4);
   this->Tolerance = 1e-4;
-  this->NormalStabilization = 0.1;
+  this->NormalStabilization = gridfem::DistanceOptions::LeastStabilization;
   this->MaximumIterations = 200;
 }
 
 vtkGeodesicDistance::~vtkGeodesicDistance() = default;
+
+double vtkGeodesicDistance::GetNormalStabilizationMinValue()
+{
+  return gridfem::DistanceOptions::LeastStabilization;
+}
 
 int vtkGeodesicDistance::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -93,11 +99,11 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
   if (places && !this->Signed)
   {
     input.points.push_back({ "Sources", "The input Sources has no points",
-      [places, &surface]
+      [this, places, &surface]
       {
-        return places->GetNumberOfPoints() > 0
-                 ? gridfem::NearestPoints(surface.Mesh(), places, "Sources")
-                 : std::vector<gridfem::Id>();
+        return places->GetNumberOfPoints() > 0 ? gridfem::NearestPointsAlongLines(surface.Mesh(),
+                                                   places, "Sources", this->Data->FarSources)
+                                               : std::vector<gridfem::Id>();
       } });
   }
 }
@@ -143,6 +149,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
   data.Input = {};
+  data.FarSources.clear();
   this->FindSources(places);
   if (this->Signed)
   {
@@ -157,6 +164,10 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   const gridfem::DistanceSolver::Result& result =
     data.Solver.Update(surface, data.Input, options, { 0, state.GetProgress() });
   surface.Together([&] { this->Write(input, vtkPolyData::GetData(outputs, 0)); });
+  if (!data.FarSources.empty())
+  {
+    this->Warn({ data.FarSources });
+  }
   this->Warn(result.warnings);
 }
 

@@ -11,7 +11,8 @@
  * The sources are all of the following points together:
  * - the points in SourcePointIds;
  * - the points where the SourceArray is not 0;
- * - the mesh points nearest to the points of input port 2;
+ * - the mesh points nearest to the points of input port 2, and to places along its lines that are
+ *   at most half a mean edge apart;
  * - the points in the selection of port 3.
  *
  * If none of the four is given, the source is the first point of the surface: the one with the
@@ -28,8 +29,8 @@
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
- * Input port 2 (optional): vtkDataSet whose points are sources, each at the nearest point of the
- * mesh.
+ * Input port 2 (optional): vtkDataSet whose points and lines are sources, each place at the nearest
+ * point of the mesh. A warning tells if points are far from the surface.
  * Input port 3 (optional): vtkSelection of points or cells of port 0. A selected cell selects its
  * points.
  *
@@ -54,8 +55,9 @@
  *
  * Tolerance (default 1e-4) is on the solve for the distance from its gradient, as in
  * vtkScreenedPoisson. The heat is always solved to the same relative accuracy everywhere.
- * NormalStabilization is 0.1 by default: with a smaller value, functions that are almost zero on
- * the surface spoil small numbers. The filter uses all shared properties but ParameterUnits.
+ * NormalStabilization is 0.1 to 1, 0.1 by default: with a smaller value, functions that are almost
+ * zero on the surface give heat of the wrong sign at sharp edges, and distances far too small. The
+ * filter uses all shared properties but ParameterUnits.
  *
  * All MPI ranks compute together if the sources are a SourceArray, a selection or the first point.
  * Rank 0 gathers the surface and computes alone with SourcePointIds, Sources, Signed,
@@ -131,6 +133,11 @@ public:
   vtkSetMacro(InsideLabel, int);
   vtkGetMacro(InsideLabel, int);
   ///@}
+
+  /**
+   * Distances need a larger stabilization than other results: 0.1 to 1.
+   */
+  double GetNormalStabilizationMinValue() override;
 
   /**
    * The input of port 1: the basis.

@@ -62,6 +62,7 @@ struct vtkHarmonicInterpolation::Internals
 {
   gridfem::InputArray Array; // where the values come from; none for the table
   std::vector<std::array<double, 2>> Table;
+  std::string FarValues; // a warning of this run
   gridfem::InterpolationSolver Solver;
 };
 
@@ -95,8 +96,10 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   if (places)
   {
     array = gridfem::FindArrayOfPlaces(this, places, "Values", "Value Array");
-    values.find = [array, places, &surface]
-    { return gridfem::ValuesOfPlaces(array, surface.Mesh(), places, "Values"); };
+    values.find = [this, array, places, &surface] {
+      return gridfem::ValuesOfPlaces(
+        array, surface.Mesh(), places, "Values", this->Data->FarValues);
+    };
     return values;
   }
   array = FindValueArray(this, input);
@@ -144,6 +147,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  data.FarValues.clear();
   const gridfem::GivenConstraints values = this->FindValues(input, vtkDataSet::GetData(inputs[2]));
   gridfem::InterpolationSolver::Options options;
   options.equation = state.options;
@@ -161,6 +165,10 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);
   gridfem::AddFieldNumber(output, "Misfit", result.misfit);
+  if (!data.FarValues.empty())
+  {
+    this->Warn({ data.FarValues });
+  }
   this->Warn(result.warnings);
 }
 

@@ -141,8 +141,17 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   {
     vtkWarningMacro("The input Sources has no points. It adds no sources to the distances.");
   }
-  surface.Together([&]
-    { data.Given.sources = gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources); });
+  std::string farSources;
+  surface.Together(
+    [&]
+    {
+      data.Given.sources =
+        gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
+    });
+  if (!farSources.empty())
+  {
+    this->Warn({ farSources });
+  }
   this->FindValues();
 
   gridfem::SignatureSolver::Options options;

@@ -21,7 +21,7 @@
  * Input port 0: vtkPolyData with polygons or triangle strips.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
  * Input port 2 (optional): any vtkDataSet, for example an extracted selection. The mesh points
- * nearest to its points are sources.
+ * nearest to its points, and to places along its lines, are sources.
  *
  * If port 0 carries the output of vtkLaplaceSpectrum with AllModes on, the filter takes these modes
  * and solves nothing. Such an input has the field array `Eigenvalues` and the point arrays

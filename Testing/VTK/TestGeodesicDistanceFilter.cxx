@@ -155,6 +155,72 @@ TEST(GeodesicDistanceFilter, IsNoLessThanTheStraightLineToAnUnevenRim)
   }
 }
 
+TEST(GeodesicDistanceFilter, WarnsOfSourcesFarFromTheSurface)
+{
+  const TriangleMesh mesh = GeodesicSphere(16);
+  for (const double height : { 1.0, 1.02, 1.3, 500.0 })
+  {
+    TriangleMesh places;
+    places.points = { mesh.points[7], height * mesh.points[100] };
+    auto filter = MakeFilter(ToPolyData(mesh), 4);
+    filter->SetInputDataObject(2, ToPolyData(places));
+    const Messages messages(filter);
+    DistancesOf(filter);
+    const bool isFar = height > 1.2;
+    ASSERT_EQ(messages.warnings.size(), isFar ? 1u : 0u) << height;
+    EXPECT_TRUE(!isFar || messages.warnings[0].find("Sources: 1 of 2 is farther than 0.1") !=
+                            std::string::npos)
+      << height;
+  }
+}
+
+vtkSmartPointer<vtkPolyData> LineBetween(const Vec3& begin, const Vec3& end)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(begin.data());
+  points->InsertNextPoint(end.data());
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell({ 0, 1 });
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(lines);
+  return data;
+}
+
+/// Lines count between their points on the surface, to half an edge. Through space they do not.
+TEST(GeodesicDistanceFilter, StartsFromAllOfALine)
+{
+  constexpr double Edge = 1.0 / 40;
+  const TriangleMesh square = FlatRectangle(40, 40);
+  for (const double slope : { 0.0, 0.3 })
+  {
+    const Vec3 begin(0.2, 0.5 - 0.5 * slope, 0);
+    const Vec3 end(0.8, 0.5 + 0.5 * slope, 0);
+    auto filter = MakeFilter(ToPolyData(square));
+    filter->SetInputDataObject(2, LineBetween(begin, end));
+    const std::vector<double> distance = DistancesOf(filter);
+    ASSERT_EQ(distance.size(), square.points.size());
+    double largest = 0.0;
+    for (std::size_t k = 0; k < distance.size(); ++k)
+    {
+      const Vec3 along = end - begin;
+      const double t = (square.points[k] - begin).dot(along) / along.squaredNorm();
+      const double exact = (square.points[k] - begin - std::clamp(t, 0.0, 1.0) * along).norm();
+      largest = Larger(largest, std::abs(distance[k] - exact));
+    }
+    EXPECT_LT(largest, 2.0 * Edge) << slope;
+  }
+  const TriangleMesh sphere = GeodesicSphere(16);
+  auto filter = MakeFilter(ToPolyData(sphere), 4);
+  filter->SetInputDataObject(2, LineBetween({ 0, 0, -1 }, { 0, 0, 1 }));
+  const std::vector<double> distance = DistancesOf(filter);
+  for (std::size_t k = 0; k < distance.size(); ++k)
+  {
+    EXPECT_TRUE(distance[k] > 0.0 || std::abs(sphere.points[k][2]) > 0.98) << k;
+  }
+}
+
 TEST(GeodesicDistanceFilter, WarnsWhenMostPointsHaveNoDistance)
 {
   TriangleMesh crumb;
@@ -196,6 +262,9 @@ TEST(GeodesicDistanceFilter, RefusesASmoothingThatMakesTheHeatOscillate)
   filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
   filter->SetSmoothing(1e4);
   ExpectRefused(filter, "Smoothing is 10000; it must be from 0.9 to 1000");
+  filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
+  filter->SetNormalStabilization(0.01);
+  ExpectRefused(filter, "Normal Stabilization is 0.01; it must be from 0.1 to 1");
 }
 
 TEST(GeodesicDistanceFilter, NamesTheNearestSource)

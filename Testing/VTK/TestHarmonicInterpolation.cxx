@@ -270,6 +270,26 @@ TEST(HarmonicInterpolationFilter, SaysWhereValuesContradictEachOther)
   EXPECT_NEAR(FieldValue(filter->GetOutput(), "Misfit"), 1.0, 1e-3);
 }
 
+TEST(HarmonicInterpolationFilter, WarnsOfValuesFarFromTheSurface)
+{
+  vtkNew<vtkPolyData> places;
+  vtkNew<vtkPoints> points;
+  for (const double height : { 1.0, -1.01, 500.0 })
+  {
+    points->InsertNextPoint(0.0, 0.0, height);
+  }
+  places->SetPoints(points);
+  AddPointArray(places, "Value", 1, [](const Vec3&, int) { return 2.0; });
+  const auto filter = Interpolate(ToPolyData(GeodesicSphere(8)), "None");
+  filter->SetInputData(2, places);
+  filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+  Messages messages(filter);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("Values: 1 of 3 is farther than"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("Point 2 is the farthest, by 499"), std::string::npos);
+}
+
 TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)
 {
   const auto sphere = ToPolyData(GeodesicSphere(12));

@@ -164,14 +164,14 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
   return array;
 }
 
-PointValues ValuesOfPlaces(
-  const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places, const std::string& input)
+PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places,
+  const std::string& input, std::string& warning)
 {
   if (places->GetNumberOfPoints() == 0)
   {
     throw InvalidInput("The input " + input + " has no points.");
   }
-  const std::vector<Id> nearest = NearestPoints(mesh, places, input);
+  const std::vector<Id> nearest = NearestPoints(mesh, places, input, warning);
   std::vector<Id> known;
   PointValues given;
   for (Id place = 0; place < static_cast<Id>(nearest.size()); ++place)

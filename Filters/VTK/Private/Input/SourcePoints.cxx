@@ -12,13 +12,13 @@ namespace gridfem
 {
 
 std::vector<Id> SourcePoints(
-  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places)
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places, std::string& warning)
 {
   RequireUsed("Source Point Ids", ids, mesh);
   std::vector<Id> sources = ids;
   if (places && places->GetNumberOfPoints() > 0)
   {
-    const std::vector<Id> nearest = NearestPoints(mesh, places, "Sources");
+    const std::vector<Id> nearest = NearestPointsAlongLines(mesh, places, "Sources", warning);
     sources.insert(sources.end(), nearest.begin(), nearest.end());
   }
   std::sort(sources.begin(), sources.end());

@@ -4,6 +4,7 @@
 
 #include "Grid/TriangleMesh.h"
 
+#include <string>
 #include <vector>
 
 class vtkDataSet;
@@ -11,11 +12,12 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// Returns the given point ids and the mesh points nearest to the points of `places` (may be null),
-/// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
-/// naming an id that no polygon uses, or a point of `places` that is not finite.
+/// Returns the given point ids and the mesh points nearest to the points and lines of `places` (may
+/// be null), ascending, every point once. Points that no polygon uses do not count. Throws
+/// InvalidInput naming an id that no polygon uses, or a point of `places` that is not finite.
+/// @param warning  gets a sentence if places are far from the surface (NearestPoints)
 std::vector<Id> SourcePoints(
-  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places, std::string& warning);
 
 } // namespace gridfem
 
