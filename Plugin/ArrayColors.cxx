@@ -50,6 +50,7 @@ constexpr const char* MapEnding = ".PVLookupTable"; // of the name under which a
 struct Choice
 {
   std::string array; // ends in *: all that begin so
+  int port = 0;
   Colors colors = Colors::Diverging;
   bool stepsApart = false;
 
@@ -225,13 +226,13 @@ public:
   }
 
 private:
-  double GetTime() const { return filter_->GetDataInformation(0)->GetTime(); }
+  double GetTime() const { return filter_->GetDataInformation(choice_.port)->GetTime(); }
 
   /// The arrays that fit, with points before cells: a map serves both arrays of a name.
   std::vector<vtkPVArrayInformation*> Arrays() const
   {
     std::vector<vtkPVArrayInformation*> found;
-    vtkPVDataInformation* data = filter_->GetDataInformation(0);
+    vtkPVDataInformation* data = filter_->GetDataInformation(choice_.port);
     for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
     {
       vtkPVDataSetAttributesInformation* all =
@@ -268,6 +269,7 @@ public:
     Choice choice;
     const std::string colors = xml->GetAttributeOrEmpty("colors");
     choice.array = xml->GetAttributeOrEmpty("array");
+    xml->GetScalarAttribute("port", &choice.port);
     choice.stepsApart = xml->GetAttributeOrEmpty("steps") == std::string("apart");
     choice.colors = colors == "sequential"    ? Colors::Sequential
                     : colors == "stripes"     ? Colors::Stripes

@@ -152,6 +152,13 @@ public:
         vtkSMPropertyHelper(lines, "RenderLinesAsTubes", true).Set(1);
         lines->UpdateVTKObjects();
       });
+    WhenFirstShown(proxy, 0,
+      [](vtkSMProxy* surface, vtkSMSourceProxy*)
+      {
+        constexpr double Opacity = 0.5;
+        vtkSMPropertyHelper(surface, "Opacity", true).Set(Opacity);
+        surface->UpdateVTKObjects();
+      });
   }
 };
 

@@ -13,7 +13,8 @@
 //                       is fitted. The new view is closed with the filter
 //   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, unless another
 //                       source has time steps that would change with it
-//   vtkSMDrawsTubes     the first Apply shows the lines of this port as tubes
+//   vtkSMDrawsTubes     the first Apply shows the lines of this port as tubes, and port 0 half
+//                       transparent, so that lines on its far side are seen as well
 //   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it, or has lost the array
 //                       that colored it. ParaView looks only once, when it first shows a filter,
 //                       and the user may choose arrays later. The user's own coloring stays. With

@@ -35,6 +35,7 @@ class Layer:
     array: str = ""
     low: float = -1.0
     high: float = 1.0
+    sequential: bool = False  # pale to dark, for values with one end
     shuffled: bool = False  # ids: every value its own color
     direct: bool = False  # the array holds colors
     wireframe: bool = False
@@ -102,6 +103,15 @@ def diverging_colors(low, high):
     return colors
 
 
+def sequential_colors(low, high):
+    colors = vtkColorTransferFunction()
+    colors.SetColorSpaceToLab()
+    colors.SetNanColor(*GRAY)
+    for value, color in ((low, WHITE), (high, BLUE)):
+        colors.AddRGBPoint(value, *color)
+    return colors
+
+
 def shuffled_colors(count):
     """Light colors of which neighboring numbers differ."""
     colors = vtkColorTransferFunction()
@@ -140,7 +150,8 @@ def actor_of(layer):
             largest = attributes.GetArray(layer.array).GetRange()[1]
             mapper.SetLookupTable(shuffled_colors(int(largest) + 1))
         else:
-            mapper.SetLookupTable(diverging_colors(layer.low, layer.high))
+            colors_between = sequential_colors if layer.sequential else diverging_colors
+            mapper.SetLookupTable(colors_between(layer.low, layer.high))
             mapper.InterpolateScalarsBeforeMappingOff()
         mapper.UseLookupTableScalarRangeOn()
     actor = vtkActor()

@@ -109,7 +109,7 @@ def main():
     tiles = [Tile("measured at forty stations", view, [Layer(mesh), colored]),
              Tile("predicted temperature", view, [Layer(result, "Prediction", low, high), colored]),
              Tile("standard deviation of the error, 0 to 4 degrees", view,
-                  [Layer(result, "PredictionStandardDeviation", 0, DEVIATION),
+                  [Layer(result, "PredictionStandardDeviation", 0, DEVIATION, sequential=True),
                    Layer(dots, color=(0.1, 0.1, 0.1))]),
              Tile("the temperature itself", view, [Layer(truth, "Temperature", low, high)])]
     write_sheet(tiles, sys.argv[3], 2, (420, 315), "Temperature from forty stations")

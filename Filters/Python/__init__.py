@@ -105,12 +105,15 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
     return _solve("ScreenedPoisson", points, cells, given, properties)["Solution"]
 
 
-def distance(points, cells, sources, nearest=False, **properties):
+def distance(points, cells, sources=(), nearest=False, position=None, **properties):
     """Computes the distance along the surface from the nearest of the points with the ids `sources`.
 
     nearest: also returns the id of the nearest source. It is -1 at points that no source reaches.
+    position: a place in space. The point of the mesh nearest to it is also a source.
     """
     sources = _inputs.ids("sources", sources)
+    if position is not None:
+        sources = numpy.append(sources, _inputs.nearest_point("position", position, points, cells))
     if sources.size == 0:
         raise Error("there are no sources")
     results = _solve("GeodesicDistance", points, cells, {},

@@ -47,6 +47,18 @@ def ids(name, values):
     return array
 
 
+def nearest_point(name, position, points, cells):
+    """Returns the id of the point nearest to a place, among the points that a cell uses."""
+    points, cells = checked(points, cells)
+    place = numbers(name, position).astype(float)
+    if place.shape != (3,) or not numpy.isfinite(place).all():
+        raise Error(f"{name} must be three finite numbers")
+    used = numpy.unique(cells)
+    if used.size == 0:
+        raise Error("there are no cells")
+    return used[numpy.argmin(((points[used] - place) ** 2).sum(axis=1))]
+
+
 def checked(points, cells):
     """Returns points and cells as arrays of the right type and shape."""
     points = numbers("points", points).astype(float, copy=False)

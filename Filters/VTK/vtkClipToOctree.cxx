@@ -11,6 +11,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -60,6 +61,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   surface.Together(
     [&]
     {
+      output->GetPointData()->SetActiveScalars(nullptr); // ParaView prefers them to those of cells
       output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
       if (this->WantsQuadraturePoints(triangles))
       {

@@ -6,6 +6,7 @@
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
+#include "Distance/NearestSource.h"
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DistanceSolver.h"
 
@@ -81,8 +82,8 @@ vtkIdType vtkGeodesicDistance::GetSourcePointId(vtkIdType index)
 
 bool vtkGeodesicDistance::NeedsWholeSurface()
 {
-  return !this->Data->SourceIds.empty() || this->Signed || this->NearestSource ||
-         this->Smoothing >= gridfem::MostSmoothing;
+  return !this->Data->SourceIds.empty() || this->UseSourcePosition || this->Signed ||
+         this->NearestSource || this->Smoothing >= gridfem::MostSmoothing;
 }
 
 void vtkGeodesicDistance::FindSources(vtkDataSet* places)
@@ -104,6 +105,15 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
         return places->GetNumberOfPoints() > 0 ? gridfem::NearestPointsAlongLines(surface.Mesh(),
                                                    places, "Sources", this->Data->FarSources)
                                                : std::vector<gridfem::Id>();
+      } });
+  }
+  if (this->UseSourcePosition)
+  {
+    input.points.push_back({ "Use Source Position", "No polygon has a point",
+      [this, &surface]
+      {
+        return std::vector<gridfem::Id>{ gridfem::NearestUsedPoint(
+          "Source Position", gridfem::Vec3(this->SourcePosition), surface.Mesh()) };
       } });
   }
 }
@@ -183,6 +193,9 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
+  os << indent << "UseSourcePosition: " << this->UseSourcePosition << "\n";
+  os << indent << "SourcePosition: " << this->SourcePosition[0] << " " << this->SourcePosition[1]
+     << " " << this->SourcePosition[2] << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "NearestSource: " << this->NearestSource << "\n";
   os << indent << "Signed: " << this->Signed << "\n";

@@ -13,9 +13,10 @@
  * - the points where the SourceArray is not 0;
  * - the mesh points nearest to the points of input port 2, and to places along its lines that are
  *   at most half a mean edge apart;
- * - the points in the selection of port 3.
+ * - the points in the selection of port 3;
+ * - with UseSourcePosition, the mesh point nearest to SourcePosition.
  *
- * If none of the four is given, the source is the first point of the surface: the one with the
+ * If none of these is given, the source is the first point of the surface: the one with the
  * smallest id that a polygon uses. If all corners of a triangle are sources, the distance is 0 on
  * the whole triangle. A warning appears if more than half of the points have no distance.
  *
@@ -60,8 +61,9 @@
  * filter uses all shared properties but ParameterUnits.
  *
  * All MPI ranks compute together if the sources are a SourceArray, a selection or the first point.
- * Rank 0 gathers the surface and computes alone with SourcePointIds, Sources, Signed,
- * NearestSource, or a Smoothing of 3.5 or more. SourcePointIds count through the gathered surface.
+ * Rank 0 gathers the surface and computes alone with SourcePointIds, Sources, UseSourcePosition,
+ * Signed, NearestSource, or a Smoothing of 3.5 or more. SourcePointIds count through the gathered
+ * surface.
  */
 #ifndef vtkGeodesicDistance_h
 #define vtkGeodesicDistance_h
@@ -95,6 +97,25 @@ public:
 
   ///@{
   /**
+   * Whether the mesh point nearest to SourcePosition is a source, in addition to the other sources.
+   * Off by default.
+   */
+  vtkSetMacro(UseSourcePosition, bool);
+  vtkGetMacro(UseSourcePosition, bool);
+  vtkBooleanMacro(UseSourcePosition, bool);
+  ///@}
+
+  ///@{
+  /**
+   * A place in space, in the unit of the points. The filter refuses a coordinate that is not finite
+   * when it runs. Default (0, 0, 0).
+   */
+  vtkSetVector3Macro(SourcePosition, double);
+  vtkGetVector3Macro(SourcePosition, double);
+  ///@}
+
+  ///@{
+  /**
    * sqrt(t), in units of the mean distance between grid functions that overlap, which is 1.2 cells.
    * A larger value rounds the distance off where fronts meet and takes somewhat longer. A value
    * below 0.9 makes the heat oscillate and the distance wrong; the filter refuses it when it runs.
@@ -117,9 +138,9 @@ public:
 
   ///@{
   /**
-   * Whether distances are from curves, negative inside. SourcePointIds, SourceArray, a selection
-   * and NearestSource need points as sources, so the filter refuses them with Signed. Off by
-   * default.
+   * Whether distances are from curves, negative inside. SourcePointIds, SourceArray, a selection,
+   * UseSourcePosition and NearestSource need points as sources, so the filter refuses them with
+   * Signed. Off by default.
    */
   vtkSetMacro(Signed, bool);
   vtkGetMacro(Signed, bool);
@@ -163,6 +184,8 @@ protected:
   bool NeedsWholeSurface() override;
   void FreeStages() override;
 
+  bool UseSourcePosition = false;
+  double SourcePosition[3] = { 0.0, 0.0, 0.0 };
   double Smoothing = 1.2;
   bool NearestSource = false;
   bool Signed = false;

@@ -67,7 +67,8 @@ STARTS = {
                       {"Range": 0.5, "NumberOfSamples": 3, "ObservationArray": [POINTS, "p_f"],
                        "MaskArray": [POINTS, "p_few"], "ObservationNoise": 0.3}],
     "GeodesicDistance": [{"SourceArray": [POINTS, "p_mask"]},
-                         {"Signed": 1, "LabelArray": [POINTS, "p_label"]}],
+                         {"Signed": 1, "LabelArray": [POINTS, "p_label"]},
+                         {"UseSourcePosition": 1, "SourcePosition": [1, 0, 0]}],
     "GeodesicPaths": [{"SourceArray": [POINTS, "p_mask"], "TargetPointIds": [40, 90]}],
     "HarmonicInterpolation": [{"ValueArray": [POINTS, "p_f"], "MaskArray": [POINTS, "p_mask"]}],
     "HeatDiffusion": [{"Array": [POINTS, "p_f"], "DiffusionTime": 0.01, "FWHM": 0.2, "Sigma": 0.2},
@@ -100,7 +101,8 @@ OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5]
                 # Each observation takes a solve.
                 "ObservationArray": [[POINTS, "p_known"]],
                 "MaskArray": [[POINTS, "p_other_few"], ["CELLS", "c_few"]],
-                "FirstPointId": [7], "InsideLabel": [0], "ReferenceLabel": [1, 0],
+                "FirstPointId": [7], "SourcePosition": [[0.0, -1.0, 0.0], [0.0, 0.0, 3.0]],
+                "InsideLabel": [0], "ReferenceLabel": [1, 0],
                 "NormalStabilization": [0.5], "MaximumIterations": [2], "Tolerance": [1e-3]}
 ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end an iteration early
 # These filters start from the last solution. It changes the last digits and the report, not the solution.

@@ -73,6 +73,17 @@ class FirstApply(unittest.TestCase):
                     data = {"POINTS": proxy.PointData, "CELLS": proxy.CellData}[association]
                     self.assertIn(array, data.keys())
 
+    def test_a_colored_input_changes_no_choice(self):
+        """The input's own active array does not hide the result."""
+        colored = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX*coordsY")
+        view = simple.CreateRenderView()
+        for name in plugin.PROXIES:
+            wanted, _ = plugin.colors_of(name)
+            if wanted and wanted == COLORED_BY.get(name, (None, wanted))[1]:
+                with self.subTest(proxy=name):
+                    shown = simple.Show(self.apply(name, colored), view)
+                    self.assertEqual(shown.ColorArrayName[1], wanted)
+
     def test_only_what_helps_is_opened(self):
         controller = vtkSMParaViewPipelineControllerWithRendering()
         for name in plugin.PROXIES:

@@ -106,6 +106,20 @@ class Numpy(unittest.TestCase):
         self.assertEqual(distances[0], 0)
         self.assertLess(numpy.abs(distances - exact).max(), 0.06)
 
+    def test_a_distance_starts_at_the_point_nearest_to_a_position(self):
+        """Also if a point of no cell is nearer."""
+        points, cells = self.mesh
+        lonely = numpy.vstack([points, [[0.8, 1.6, 0.2]]])
+        for position in ([0.9, 1.8, 0.2], (-0.3, 0.0, -0.1)):
+            with self.subTest(position=position):
+                nearest = numpy.linalg.norm(points - position, axis=1).argmin()
+                numpy.testing.assert_array_equal(
+                    gridfem.distance(lonely, cells, position=position, **OPTIONS)[:-1],
+                    gridfem.distance(lonely, cells, [nearest], **OPTIONS)[:-1])
+        for position in ([0, 0], [0, 0, numpy.nan]):
+            with self.assertRaisesRegex(gridfem.Error, "three finite numbers"):
+                gridfem.distance(*self.mesh, position=position)
+
     def test_no_distance_is_below_the_straight_line(self):
         sources = numpy.arange(0, len(self.points), 9)
         distances = gridfem.distance(*self.mesh, sources, **OPTIONS)

@@ -100,6 +100,53 @@ TEST(GeodesicDistanceFilter, TakesTheSameSourceAsIdAsMaskAndAsPlace)
   EXPECT_EQ(DistancesOf(byPlace), expected);
 }
 
+TEST(GeodesicDistanceFilter, StartsAtThePointNearestToAPosition)
+{
+  TriangleMesh mesh = GeodesicSphere(12);
+  mesh.points.insert(mesh.points.begin(), Vec3(0.0, 0.0, 1.2)); // of no polygon
+  for (auto& corner : mesh.triangles)
+  {
+    corner = { corner[0] + 1, corner[1] + 1, corner[2] + 1 };
+  }
+  auto byPosition = MakeFilter(ToPolyData(mesh));
+  for (const Vec3& place : { Vec3(0.0, 0.0, 1.25), Vec3(-3.0, 0.2, 0.1), Vec3(0.1, 0.3, -0.2) })
+  {
+    Id nearest = 1;
+    for (Id point = 1; point < static_cast<Id>(mesh.points.size()); ++point)
+    {
+      const bool isNearer =
+        (mesh.points[point] - place).norm() < (mesh.points[nearest] - place).norm();
+      nearest = isNearer ? point : nearest;
+    }
+    auto byId = MakeFilter(ToPolyData(mesh));
+    byId->AddSourcePointId(nearest);
+    byPosition->SetSourcePosition(place[0], place[1], place[2]);
+    EXPECT_EQ(DistancesOf(byPosition)[1], 0.0) << "a position that is not used counts";
+    byPosition->UseSourcePositionOn();
+    const std::vector<double> found = DistancesOf(byPosition);
+    EXPECT_EQ(found[nearest], 0.0);
+    const std::vector<double> expected = DistancesOf(byId);
+    for (std::size_t i = 1; i < found.size(); ++i)
+    {
+      ASSERT_EQ(found[i], expected[i]) << i;
+    }
+    byPosition->UseSourcePositionOff();
+  }
+}
+
+TEST(GeodesicDistanceFilter, RefusesAPositionThatIsNowhereOrIsNoCurve)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  auto nowhere = MakeFilter(sphere, 4);
+  nowhere->UseSourcePositionOn();
+  nowhere->SetSourcePosition(0.0, std::nan(""), 0.0);
+  ExpectRefused(nowhere, "Source Position has a NaN");
+  auto noCurve = MakeFilter(sphere, 4);
+  noCurve->UseSourcePositionOn();
+  noCurve->SignedOn();
+  ExpectRefused(noCurve, "Use Source Position is about points");
+}
+
 TEST(GeodesicDistanceFilter, StartsAtTheFirstPointWhereNothingIsChosen)
 {
   const TriangleMesh mesh = GeodesicSphere(8);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace gridfem
 {
@@ -310,6 +311,26 @@ Id FirstUsedPoint(const TriangleMesh& mesh)
     first = std::min({ first, corner[0], corner[1], corner[2] });
   }
   return first;
+}
+
+Id NearestUsedPoint(const std::string& property, const Vec3& place, const TriangleMesh& mesh)
+{
+  if (!place.allFinite())
+  {
+    throw InvalidInput(
+      property + " has a NaN or infinite coordinate, so no point of the mesh is nearest to it.");
+  }
+  const auto farness = [&](Id point)
+  { return std::make_pair((mesh.points[point] - place).squaredNorm(), point); };
+  auto nearest = farness(mesh.triangles.front()[0]);
+  for (const auto& corner : mesh.triangles)
+  {
+    for (const Id point : corner)
+    {
+      nearest = std::min(nearest, farness(point));
+    }
+  }
+  return nearest.second;
 }
 
 std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<double>& distance,

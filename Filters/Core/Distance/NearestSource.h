@@ -21,6 +21,12 @@ void RequireUsed(const std::string& property, const std::vector<Id>& ids, const 
 /// The least id that a triangle uses: the source where none is chosen.
 Id FirstUsedPoint(const TriangleMesh& mesh);
 
+/// The point nearest to a place in space, among the points that a triangle uses. If several are as
+/// near, the one with the least id.
+/// @param property  the name of the place in messages
+/// Throws InvalidInput if the place is not finite.
+Id NearestUsedPoint(const std::string& property, const Vec3& place, const TriangleMesh& mesh);
+
 /// Traces every point back to the origin of its distance. The steepest descent on the triangles
 /// around the point leads to a place between two nearer points. The labels of these two are mixed
 /// in the proportion of the place. The labels are the binary digits of the sources' numbers, as

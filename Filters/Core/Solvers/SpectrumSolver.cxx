@@ -36,18 +36,23 @@ void RequireMemoryOfModes(const Surface& surface, int modes)
 /// Reports the cost of many modes before anything is computed.
 void AnnounceCost(const Surface& surface, const SpectrumSolver::Input& input, Id modes)
 {
+  constexpr double Long = 30.0; // seconds
   constexpr double Minute = 60.0;
   constexpr double Hour = 3600.0;
   const Id functions = NumberOfUnknowns(surface.Space());
   const double seconds = EstimateSpectrumSeconds(functions, modes, surface.Threads());
-  if (seconds < Minute || !input.announce || surface.IsShared())
+  if (seconds < Long || !input.announce || surface.IsShared())
   {
     return;
   }
   std::ostringstream text;
   text << std::setprecision(2) << modes << " modes of " << functions << " functions: about "
-       << (seconds < Hour ? seconds / Minute : seconds / Hour)
-       << (seconds < Hour ? " minutes" : " hours");
+       << (seconds < Minute  ? seconds
+            : seconds < Hour ? seconds / Minute
+                             : seconds / Hour)
+       << (seconds < Minute  ? " seconds"
+            : seconds < Hour ? " minutes"
+                             : " hours");
   input.announce(text.str(), seconds >= Hour);
 }
 

@@ -86,7 +86,7 @@ def check_shown(name):
     if ([shown.GetOutputPortForConnection(0) for shown in inputs] != SURFACES.get(name, [0])
             or any(shown.GetProxy(0) != source.SMProxy for shown in inputs)):
         sys.exit(f"{name}: {len(surfaces)} surfaces are shown")
-    if name == "GeodesicPaths" and not surfaces[1].RenderLinesAsTubes:
+    if name == "GeodesicPaths" and not (surfaces[1].RenderLinesAsTubes and surfaces[0].Opacity < 1):
         sys.exit("the paths are lines that cannot be seen")
     labels = [part for part in seen if part.SMProxy.GetXMLName() == "TextSourceRepresentation"]
     if len(labels) != (name in LABELED):

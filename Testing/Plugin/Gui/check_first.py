@@ -2,6 +2,7 @@
 only gently and has the array of the input. The colors do not depend on earlier filters.
 """
 import functools
+import math
 import os
 import sys
 import types
@@ -12,6 +13,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 from paraview import simple
 
 import plugin
+from events import PLACE
 
 FOLDER = sys.argv[1]
 RESULTS = {"ScreenedPoisson": "Solution", "HeatDiffusion": "Diffused", "SurfaceGradient": "Gradient",
@@ -129,6 +131,14 @@ class FirstApply(unittest.TestCase):
         seen = look("colors.Sources", "GeodesicDistance")
         self.assertTrue(seen.sources)
         self.assertEqual(range_of(seen, "Distance"), (0, 0))  # the same points
+
+    def test_a_distance_starts_at_the_handle_in_the_view(self):
+        seen = look("colors.Position", "GeodesicDistance")
+        points = seen.data.GetPoints()
+        farness = [math.dist(points.GetPoint(k), PLACE) for k in range(points.GetNumberOfPoints())]
+        distance = seen.data.GetPointData().GetArray("Distance")
+        zeros = [k for k in range(len(farness)) if distance.GetTuple1(k) == 0]
+        self.assertEqual(zeros, [farness.index(min(farness))])
 
     def test_an_example_of_the_help_menu_is_loaded(self):
         plugin.clear()

@@ -4,6 +4,7 @@ from paraview import simple
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 MENUS = "pqClientMainWindow/menubar"
+PLACE = (2.0, -1.5, 0.3)  # of the handle in the view
 
 
 class Script:

@@ -11,11 +11,12 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import plugin
-from events import PROPERTIES, Script
+from events import PLACE, PROPERTIES, Script
 
 TIME = "pqClientMainWindow/VCRToolbar/1QToolButton"
 FIRST, NEXT = 0, 4  # buttons of the toolbar for the time
 DEPTH = "4"
+CHOSEN_DEPTH = ("ClipToOctree", "ConnectivityAwareBasis")  # the window chooses it
 PAIRS = (("one", ("ScreenedPoisson", "HeatDiffusion", "SurfaceGradient")),
          ("colors", ("ScreenedPoisson", "HeatDiffusion", "StitchColors")))
 
@@ -85,6 +86,17 @@ def choose_sources():
     script.delete()
 
 
+def choose_position():
+    """The distance from a handle in the view, which is placed by its coordinates."""
+    script.make("GeodesicDistance")
+    script.event(f"{PROPERTIES}/UseSourcePosition/CheckBox", "set_boolean", "true")
+    for axis, value in zip("XYZ", PLACE):
+        script.event(f"{PROPERTIES}/InteractiveHandle/worldPosition{axis}", "set_string", str(value))
+    script.apply()
+    script.save("colors.Position")
+    script.delete()
+
+
 write_surfaces()
 surface = plugin.sphere()
 script.apply()  # raw.vtp
@@ -94,7 +106,7 @@ for filter_name in plugin.PROXIES:
         depth = getattr(simple, filter_name)(Input=surface).SMProxy.GetProperty("Depth")
         has_depth = depth and depth.GetPanelVisibility() == "default"
         first_apply(filter_name, f"raw.{filter_name}",
-                    **({"Depth": DEPTH} if has_depth and filter_name != "ClipToOctree" else {}))
+                    **({"Depth": DEPTH} if has_depth and filter_name not in CHOSEN_DEPTH else {}))
         script.delete()
 for file, filters in PAIRS:
     script.open(f"{folder}/{file}.vtp")
@@ -103,6 +115,7 @@ for file, filters in PAIRS:
         first_apply(filter_name, f"{file}.{filter_name}", Depth=DEPTH)
         script.delete()
 choose_sources()
+choose_position()
 script.example("path")
 script.save("example")
 script.write("first")
