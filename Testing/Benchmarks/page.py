@@ -38,8 +38,11 @@ def written(group, kept):
     """The lines of the page for a kept output. Every table begins with its origin."""
     first, *lines = kept.splitlines()
     page = []
-    before = None  # the kind of the line above
-    for line in filter(str.strip, lines):
+    before = None  # the kind of the line above; none below an empty line
+    for line in lines:
+        if not line.strip():
+            before = None
+            continue
         kind = "table" if line.startswith("|") else "ratio" if line.startswith("RATIO ") else "text"
         if kind != before or kind == "text":
             page.append("")

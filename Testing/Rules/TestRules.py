@@ -312,12 +312,14 @@ class Benchmarks(Rule):
 
     def test_what_programs_print_becomes_tables(self):
         kept = "1 May 2030, Chip, 2 processors, at abc\n\nCycle of 3 | 4\n\n| mesh   | s   |\n|--------|-----|\n" \
-               "| knot   | 0.5 |\n| a, b   |     |\nRATIO odd/one 1 <= 2\nRATIO two 3 >= 2\nIt ends.\n"
+               "| knot   | 0.5 |\n| a, b   |     |\n\n| n |\n|---|\n| 7 |\nRATIO odd/one 1 <= 2\nRATIO two 3 >= 2\nIt ends.\n"
         written = page.filled("A\n<!-- measured odd -->\nold\n<!-- end odd -->\nB", {"odd": kept})
         self.assertEqual(written, "\n".join((
             "A", "<!-- measured odd -->", "", "Cycle of 3 | 4", "",
             "*1 May 2030, Chip, 2 processors, at abc: `./Testing/benchmark.sh odd`*", "",
             "| mesh | s |", "|---|---|", "| knot | 0.5 |", "| a, b |  |", "",
+            "*1 May 2030, Chip, 2 processors, at abc: `./Testing/benchmark.sh odd`*", "",
+            "| n |", "|---|", "| 7 |", "",
             "    RATIO odd/one 1 <= 2", "    RATIO two 3 >= 2", "", "It ends.", "", "<!-- end odd -->", "B")))
         self.assertEqual(page.filled(written, {"odd": kept}), written)
         self.assertRaises(KeyError, page.filled, "A", {"odd": kept})
