@@ -22,7 +22,6 @@ public:
       multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
   {
     poisson_.estimateErrors = true;
-    accuracy = SolutionAccuracy::Exact();
   }
 
   /// @param values, gradients  integrals of a field and of its gradient; gradients may have no rows
@@ -36,7 +35,7 @@ public:
   }
 
   SolveReport report = SolveReport::Solved();
-  SolutionAccuracy accuracy;
+  SolutionAccuracy accuracy = SolutionAccuracy::Exact();
 
 private:
   const SpaceLevels& space_;

@@ -8,7 +8,7 @@ namespace gridfem
 {
 
 LocalSurface::LocalSurface(
-  Stages& stages, std::shared_ptr<const TriangleMesh> mesh, SurfaceOptions options)
+  Stages& stages, std::shared_ptr<const TriangleMesh> mesh, const SurfaceOptions& options)
   : Surface(stages), used_(options), mesh_(std::move(mesh)), asked_(options)
 {
 }

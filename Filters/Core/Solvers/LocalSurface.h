@@ -12,7 +12,8 @@ class LocalSurface : public virtual Surface
 {
 public:
   /// @param mesh  stays as it is
-  LocalSurface(Stages& stages, std::shared_ptr<const TriangleMesh> mesh, SurfaceOptions options);
+  LocalSurface(
+    Stages& stages, std::shared_ptr<const TriangleMesh> mesh, const SurfaceOptions& options);
 
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;

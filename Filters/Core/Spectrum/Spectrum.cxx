@@ -361,11 +361,16 @@ Spectrum ComputeOnNestedLevels(
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
   DivideBy(unit, mass);
   const Constants zeroModes = ConstantsOnLevel(space, 0, mass, threads);
-  Spectrum spectrum =
-    zeroModes.Count() >= options.numberOfModes
-      ? OnlyConstants(
-          zeroModes, ProblemOnLevel<double>(space, 0, zeroModes, std::move(mass), threads), options)
-      : IterateOnLevels(space, options, zeroModes, std::move(mass), unit, progress);
+  Spectrum spectrum;
+  if (zeroModes.Count() >= options.numberOfModes)
+  {
+    spectrum = OnlyConstants(
+      zeroModes, ProblemOnLevel<double>(space, 0, zeroModes, std::move(mass), threads), options);
+  }
+  else
+  {
+    spectrum = IterateOnLevels(space, options, zeroModes, std::move(mass), unit, progress);
+  }
   ConvertUnit(unit, 1.0, spectrum);
   return spectrum;
 }

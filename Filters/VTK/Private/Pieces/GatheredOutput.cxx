@@ -315,7 +315,8 @@ Bytes Merged(std::vector<Bytes> messages)
   for (Bytes& bytes : messages)
   {
     const vtkNew<vtkFieldData> ofRank;
-    DataMessage(std::move(bytes)).TakeArrays(ofRank);
+    DataMessage message(std::move(bytes));
+    message.TakeArrays(ofRank);
     AddMissing(ofRank, all);
   }
   DataMessage merged;
@@ -384,7 +385,8 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
     [&]
     {
       const vtkNew<vtkFieldData> ofAll;
-      DataMessage(std::move(merged)).TakeArrays(ofAll);
+      DataMessage taken(std::move(merged));
+      taken.TakeArrays(ofAll);
       ForEachArray(given, // arrays that the filter removed stay removed
         [&](vtkAbstractArray* array) { ofAll->RemoveArray(array->GetName()); });
       AddMissing(ofAll, results);
