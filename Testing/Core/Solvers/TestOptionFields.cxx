@@ -9,6 +9,7 @@
 #include "Solvers/GaussianFieldSolver.h"
 #include "Solvers/GradientSolver.h"
 #include "Solvers/InterpolationSolver.h"
+#include "Solvers/ParameterizationSolver.h"
 #include "Solvers/PathSolver.h"
 #include "Solvers/PoissonSolver.h"
 #include "Solvers/SignatureSolver.h"
@@ -45,8 +46,8 @@ class OptionFields : public ::testing::Test
 using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
   DiffusionSolver::Options, DistanceSolver::Options, FarthestPointsSolver::Options,
   FlowSolver::Options, GaussianFieldSolver::Options, GradientSolver::Options,
-  InterpolationSolver::Options, PathSolver::Options, PoissonSolver::Options,
-  SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
+  InterpolationSolver::Options, ParameterizationSolver::Options, PathSolver::Options,
+  PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace

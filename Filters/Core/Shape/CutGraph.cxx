@@ -1,0 +1,215 @@
+#include "Shape/CutGraph.h"
+
+#include "Base/UnionFind.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr double NotReached = std::numeric_limits<double>::infinity();
+
+/// Vertices and boundary loops as nodes, with the edges between them.
+class CutSearch
+{
+public:
+  CutSearch(const ConnectedTriangles& triangles, const std::vector<Vec3>& points)
+    : triangles_(triangles), points_(points), node_(NumberVertices(triangles))
+  {
+    for (const std::vector<HalfEdge>& loop : BoundaryLoops(triangles))
+    {
+      loops_.push_back(node_.ofCorner[loop.front()]);
+      for (const HalfEdge h : loop)
+      {
+        joined_.resize(std::max<std::size_t>(joined_.size(), node_.count), -1);
+        joined_[node_.ofCorner[h]] = loops_.back();
+      }
+    }
+    if (!joined_.empty())
+    {
+      for (Index& node : node_.ofCorner)
+      {
+        node = joined_[node] < 0 ? node : joined_[node];
+      }
+    }
+    begin_.assign(node_.count + 1, 0);
+    for (HalfEdge h = 0; h < this->Count(); ++h)
+    {
+      ++begin_[this->From(h) + 1];
+    }
+    for (Index node = 0; node < node_.count; ++node)
+    {
+      begin_[node + 1] += begin_[node];
+    }
+    std::vector<Index> next = begin_;
+    leaving_.resize(triangles.twin.size());
+    for (HalfEdge h = 0; h < this->Count(); ++h)
+    {
+      leaving_[next[this->From(h)]++] = h;
+    }
+    isOnCut_.assign(node_.count, 0);
+  }
+
+  std::vector<HalfEdge> Find(bool hasHandles, int extraCuts)
+  {
+    Index root = loops_.empty() ? 0 : loops_.front();
+    isOnCut_[root] = 1;
+    Index farthest = this->MeasureFromCuts();
+    if (loops_.empty())
+    {
+      isOnCut_[root] = 0;
+      root = farthest;
+      isOnCut_[root] = 1;
+      this->MeasureFromCuts();
+    }
+    for (const Index loop : loops_)
+    {
+      this->CutFrom(loop);
+    }
+    if (hasHandles)
+    {
+      for (const HalfEdge h : this->EdgesAroundHandles())
+      {
+        this->CutFrom(this->From(h));
+        this->CutFrom(this->To(h));
+        cuts_.push_back(h);
+      }
+    }
+    const int extra = loops_.empty() && cuts_.empty() ? std::max(extraCuts, 1) : extraCuts;
+    for (int k = 0; k < extra; ++k)
+    {
+      this->CutFrom(this->MeasureFromCuts());
+    }
+    return std::move(cuts_);
+  }
+
+private:
+  HalfEdge Count() const { return static_cast<HalfEdge>(triangles_.twin.size()); }
+  Index From(HalfEdge h) const { return node_.ofCorner[h]; }
+  Index To(HalfEdge h) const { return node_.ofCorner[ConnectedTriangles::Next(h)]; }
+  double LengthOf(HalfEdge h) const
+  {
+    return (points_[triangles_.From(h)] - points_[triangles_.To(h)]).norm();
+  }
+
+  /// Finds shortest paths from all nodes on cuts to all nodes (Dijkstra). Returns the farthest.
+  Index MeasureFromCuts()
+  {
+    using Waiting = std::pair<double, Index>;
+    std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
+    length_.assign(node_.count, NotReached);
+    reachedBy_.assign(node_.count, -1);
+    for (Index node = 0; node < node_.count; ++node)
+    {
+      if (isOnCut_[node])
+      {
+        length_[node] = 0.0;
+        queue.emplace(0.0, node);
+      }
+    }
+    Index last = 0;
+    while (!queue.empty())
+    {
+      const auto [length, node] = queue.top();
+      queue.pop();
+      if (length > length_[node])
+      {
+        continue;
+      }
+      last = length > length_[last] || length_[last] == NotReached ? node : last;
+      for (Index k = begin_[node]; k < begin_[node + 1]; ++k)
+      {
+        this->Reach(leaving_[k], this->To(leaving_[k]), queue);
+        const HalfEdge before = ConnectedTriangles::Previous(leaving_[k]); // ends at the node
+        this->Reach(before, this->From(before), queue);
+      }
+    }
+    return last;
+  }
+
+  template<class Queue>
+  void Reach(HalfEdge h, Index node, Queue& queue)
+  {
+    const Index from = this->From(h) == node ? this->To(h) : this->From(h);
+    const double length = length_[from] + this->LengthOf(h);
+    if (triangles_.twin[h] >= 0 && length < length_[node])
+    {
+      length_[node] = length;
+      reachedBy_[node] = h;
+      queue.emplace(length, node);
+    }
+  }
+
+  /// Cuts along the path from a node to the nodes that are on cuts already.
+  void CutFrom(Index node)
+  {
+    while (!isOnCut_[node])
+    {
+      isOnCut_[node] = 1;
+      const HalfEdge h = reachedBy_[node];
+      cuts_.push_back(h);
+      node = this->From(h) == node ? this->To(h) : this->From(h);
+    }
+  }
+
+  /// Edges between two paths of the tree, two for each handle.
+  std::vector<HalfEdge> EdgesAroundHandles() const
+  {
+    std::vector<char> isInTree(triangles_.twin.size(), 0);
+    for (const HalfEdge h : reachedBy_)
+    {
+      if (h >= 0)
+      {
+        isInTree[h] = isInTree[triangles_.twin[h]] = 1;
+      }
+    }
+    std::vector<std::pair<double, HalfEdge>> edges; // longest loops first
+    for (HalfEdge h = 0; h < this->Count(); ++h)
+    {
+      if (triangles_.twin[h] > h && !isInTree[h])
+      {
+        edges.emplace_back(-(length_[this->From(h)] + length_[this->To(h)] + this->LengthOf(h)), h);
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    UnionFind sets(triangles_.Count());
+    std::vector<HalfEdge> around;
+    for (const auto& [length, h] : edges)
+    {
+      if (sets.Find(h / 3) == sets.Find(triangles_.twin[h] / 3))
+      {
+        around.push_back(h);
+      }
+      sets.Unite(h / 3, triangles_.twin[h] / 3);
+    }
+    return around;
+  }
+
+  const ConnectedTriangles& triangles_;
+  const std::vector<Vec3>& points_;
+  VertexNumbers node_;        // vertices, with those of a loop joined
+  std::vector<Index> joined_; // node of vertices on the boundary
+  std::vector<Index> loops_;  // their nodes
+  std::vector<Index> begin_;  // of the half edges that leave a node
+  std::vector<HalfEdge> leaving_;
+  std::vector<char> isOnCut_;
+  std::vector<double> length_;
+  std::vector<HalfEdge> reachedBy_;
+  std::vector<HalfEdge> cuts_;
+};
+
+} // namespace
+
+std::vector<HalfEdge> FindCuts(const ConnectedTriangles& triangles, const std::vector<Vec3>& points,
+  bool hasHandles, int extraCuts)
+{
+  return CutSearch(triangles, points).Find(hasHandles, extraCuts);
+}
+
+} // namespace gridfem

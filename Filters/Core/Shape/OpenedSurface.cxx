@@ -1,0 +1,322 @@
+#include "Shape/OpenedSurface.h"
+
+#include "Base/Errors.h"
+#include "Grid/TriangleArea.h"
+#include "Grid/TriangleSides.h"
+#include "Shape/CutGraph.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// The triangles of the mesh that take part, connected, and in components.
+struct Sheets
+{
+  ConnectedTriangles triangles;
+  std::vector<Id> source;                 // triangle of the mesh
+  std::vector<char> isTurned;             // against the mesh
+  std::vector<std::vector<Index>> member; // triangles of each component, ascending
+};
+
+struct AcrossEdge
+{
+  HalfEdge half = -1;
+  bool isOpposite = true; // the two triangles face the same way
+};
+
+/// Returns the neighbor across each half edge of the triangles of the mesh.
+std::vector<AcrossEdge> FindNeighbors(const TriangleMesh& mesh, const Array<Index>& place)
+{
+  std::vector<AcrossEdge> neighbors(3 * mesh.triangles.size());
+  ForEachEdge(SortedSides(mesh, place),
+    [&](const TriangleSide* side, Id count)
+    {
+      if (count != 2)
+      {
+        return;
+      }
+      const auto half = [&](int k)
+      { return static_cast<HalfEdge>(3 * side[k].edge.triangle + side[k].edge.corner); };
+      const bool isOpposite = side[0].isUpwards != side[1].isUpwards;
+      neighbors[half(0)] = { half(1), isOpposite };
+      neighbors[half(1)] = { half(0), isOpposite };
+    });
+  return neighbors;
+}
+
+/// Finds the triangles that are connected to a triangle, and which of them have to be turned.
+std::vector<Index> GatherConnected(Index first, const TriangleMesh& mesh,
+  const std::vector<AcrossEdge>& neighbors, std::vector<signed char>& side)
+{
+  std::vector<Index> members{ first };
+  side[first] = 1;
+  double area = AreaOf(mesh, first);
+  for (std::size_t k = 0; k < members.size(); ++k)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const AcrossEdge& neighbor = neighbors[3 * members[k] + corner];
+      const Index next = neighbor.half / 3;
+      if (neighbor.half >= 0 && side[next] == 0)
+      {
+        side[next] =
+          static_cast<signed char>(neighbor.isOpposite ? side[members[k]] : -side[members[k]]);
+        area += side[next] * AreaOf(mesh, next);
+        members.push_back(next);
+      }
+    }
+  }
+  for (const Index t : members)
+  {
+    side[t] = static_cast<signed char>(area < 0.0 ? -side[t] : side[t]);
+  }
+  std::sort(members.begin(), members.end());
+  return members;
+}
+
+/// The half edge of a triangle after it was turned, which exchanges its corners 1 and 2.
+HalfEdge AfterTurn(HalfEdge h, bool isTurned)
+{
+  return isTurned ? h - h % 3 + (2 - h % 3) : h;
+}
+
+Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int threads)
+{
+  RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "sides of triangles");
+  Array<Index> place(mesh.points.size());
+  std::iota(place.begin(), place.end(), 0);
+  if (weldsCoincidentPoints)
+  {
+    place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh, threads), threads);
+  }
+  const std::vector<AcrossEdge> neighbors = FindNeighbors(mesh, place);
+  Sheets sheets;
+  std::vector<signed char> side(mesh.triangles.size(), 0);
+  std::vector<Index> number(mesh.triangles.size(), -1);
+  const auto isTriangle = [&](Index t)
+  {
+    const auto& c = mesh.triangles[t];
+    return place[c[0]] != place[c[1]] && place[c[1]] != place[c[2]] && place[c[2]] != place[c[0]];
+  };
+  for (Index t = 0; t < static_cast<Index>(mesh.triangles.size()); ++t)
+  {
+    if (side[t] != 0 || !isTriangle(t))
+    {
+      continue;
+    }
+    sheets.member.emplace_back();
+    for (const Index member : GatherConnected(t, mesh, neighbors, side))
+    {
+      number[member] = sheets.triangles.Count();
+      sheets.member.back().push_back(number[member]);
+      const auto& c = mesh.triangles[member];
+      const bool isTurned = side[member] < 0;
+      sheets.triangles.Add({ place[c[0]], place[c[isTurned ? 2 : 1]], place[c[isTurned ? 1 : 2]] });
+      sheets.source.push_back(member);
+      sheets.isTurned.push_back(isTurned ? 1 : 0);
+    }
+  }
+  for (std::size_t h = 0; h < neighbors.size(); ++h)
+  {
+    const AcrossEdge& neighbor = neighbors[h];
+    const auto t = static_cast<Index>(h / 3);
+    const Index other = neighbor.half / 3;
+    // Otherwise the component has one side only, and ends here.
+    if (neighbor.half >= 0 && (side[t] == side[other]) == neighbor.isOpposite)
+    {
+      sheets.triangles.twin[3 * number[t] + AfterTurn(static_cast<HalfEdge>(h), side[t] < 0) % 3] =
+        3 * number[other] + AfterTurn(neighbor.half, side[other] < 0) % 3;
+    }
+  }
+  return sheets;
+}
+
+/// One component on its way to a disk.
+class Opening
+{
+public:
+  Opening(const TriangleMesh& mesh, const Sheets& sheets, const std::vector<Index>& members)
+    : mesh_(mesh)
+  {
+    for (const Index member : members)
+    {
+      const auto& places = sheets.triangles.places[member];
+      placeOf_.insert(placeOf_.end(), places.begin(), places.end());
+    }
+    std::sort(placeOf_.begin(), placeOf_.end());
+    placeOf_.erase(std::unique(placeOf_.begin(), placeOf_.end()), placeOf_.end());
+    for (const Index place : placeOf_)
+    {
+      points_.push_back(mesh.points[place]);
+    }
+    const auto local = [&](Index place)
+    {
+      return static_cast<Index>(
+        std::lower_bound(placeOf_.begin(), placeOf_.end(), place) - placeOf_.begin());
+    };
+    const Index first = members.front(); // members are consecutive
+    for (const Index member : members)
+    {
+      const auto& places = sheets.triangles.places[member];
+      part_.Add({ local(places[0]), local(places[1]), local(places[2]) });
+      disk_.triangleOf.push_back(sheets.source[member]);
+      disk_.isTurned.push_back(sheets.isTurned[member]);
+      for (HalfEdge k = 0; k < 3; ++k)
+      {
+        const HalfEdge twin = sheets.triangles.twin[3 * member + k];
+        part_.twin[3 * (member - first) + k] = twin < 0 ? -1 : twin - 3 * first;
+      }
+    }
+  }
+
+  Disk ToDisk(const OpeningOptions& options)
+  {
+    auto loops = BoundaryLoops(part_);
+    disk_.topology.loops = static_cast<Id>(loops.size());
+    Id inner = 0;
+    for (const HalfEdge twin : part_.twin)
+    {
+      inner += twin >= 0 ? 1 : 0;
+    }
+    const Id edges = static_cast<Id>(part_.twin.size()) - inner / 2;
+    disk_.topology.euler = NumberVertices(part_).count - edges + part_.Count();
+    this->FillHoles(loops, options.holeSize);
+    const bool isDisk = loops.size() == 1 && disk_.topology.Genus() == 0;
+    if (!isDisk || options.extraCuts > 0)
+    {
+      const std::vector<HalfEdge> cuts =
+        FindCuts(part_, points_, disk_.topology.Genus() > 0, options.extraCuts);
+      for (const HalfEdge h : cuts)
+      {
+        part_.Cut(h);
+      }
+      disk_.cutEdges = static_cast<Id>(cuts.size());
+    }
+    return this->Finish();
+  }
+
+private:
+  double LengthOf(const std::vector<HalfEdge>& loop) const
+  {
+    double length = 0.0;
+    for (const HalfEdge h : loop)
+    {
+      length += (points_[part_.From(h)] - points_[part_.To(h)]).norm();
+    }
+    return length;
+  }
+
+  /// Covers every small loop with triangles around its middle.
+  void FillHoles(std::vector<std::vector<HalfEdge>>& loops, double holeSize)
+  {
+    std::vector<double> length;
+    for (const auto& loop : loops)
+    {
+      length.push_back(this->LengthOf(loop));
+    }
+    const auto longest = std::max_element(length.begin(), length.end()) - length.begin();
+    std::vector<std::vector<HalfEdge>> kept;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+    {
+      if (static_cast<Id>(k) == longest || length[k] > holeSize * length[longest])
+      {
+        kept.push_back(std::move(loops[k]));
+        continue;
+      }
+      this->Fill(loops[k]);
+    }
+    loops = std::move(kept);
+  }
+
+  void Fill(const std::vector<HalfEdge>& loop)
+  {
+    Vec3 middle = Vec3::Zero();
+    for (const HalfEdge h : loop)
+    {
+      middle += points_[part_.From(h)] / static_cast<double>(loop.size());
+    }
+    ++disk_.filled;
+    if (loop.size() == 2)
+    {
+      part_.Connect(loop[0], loop[1]);
+      return;
+    }
+    points_.push_back(middle);
+    const auto center = static_cast<Index>(points_.size() - 1);
+    const HalfEdge first = 3 * part_.Count();
+    for (const HalfEdge h : loop)
+    {
+      part_.Add({ part_.To(h), part_.From(h), center });
+      part_.Connect(h, 3 * (part_.Count() - 1));
+      disk_.triangleOf.push_back(-1);
+      disk_.isTurned.push_back(0);
+    }
+    const auto count = static_cast<Index>(loop.size());
+    for (Index k = 0; k < count; ++k) // side 1 runs from where the edge begins to the center
+    {
+      part_.Connect(first + 3 * ((k + 1) % count) + 1, first + 3 * k + 2);
+    }
+  }
+
+  Disk Finish()
+  {
+    const VertexNumbers vertices = NumberVertices(part_);
+    disk_.points.resize(vertices.count);
+    disk_.pointOf.assign(vertices.count, -1);
+    for (Index t = 0; t < part_.Count(); ++t)
+    {
+      std::array<Index, 3> corners{};
+      for (int k = 0; k < 3; ++k)
+      {
+        corners[k] = vertices.ofCorner[3 * t + k];
+        disk_.points[corners[k]] = points_[part_.places[t][k]];
+        const Id source = disk_.triangleOf[t];
+        if (source >= 0 && disk_.pointOf[corners[k]] < 0)
+        {
+          const int own = disk_.isTurned[t] && k > 0 ? 3 - k : k;
+          disk_.pointOf[corners[k]] = mesh_.triangles[source][own];
+        }
+      }
+      disk_.triangles.push_back(corners);
+    }
+    const auto loops = BoundaryLoops(part_);
+    for (const HalfEdge h : loops.front())
+    {
+      disk_.loop.push_back(vertices.ofCorner[h]);
+    }
+    return std::move(disk_);
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<Index> placeOf_; // ascending: the place of the mesh of each local place
+  std::vector<Vec3> points_;   // of local places, and the middles of holes
+  ConnectedTriangles part_;
+  Disk disk_;
+};
+
+} // namespace
+
+std::vector<Disk> OpenToDisks(
+  const TriangleMesh& mesh, const OpeningOptions& options, const Job& job)
+{
+  const Sheets sheets = FindSheets(mesh, options.weldCoincidentPoints, job.threads);
+  if (sheets.member.empty())
+  {
+    throw InvalidInput("No triangle has three corners at different places.");
+  }
+  std::vector<Disk> disks;
+  for (const std::vector<Index>& members : sheets.member)
+  {
+    job.Check(static_cast<double>(disks.size()) / static_cast<double>(sheets.member.size()));
+    disks.push_back(Opening(mesh, sheets, members).ToDisk(options));
+  }
+  return disks;
+}
+
+} // namespace gridfem

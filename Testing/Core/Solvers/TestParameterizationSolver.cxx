@@ -1,0 +1,440 @@
+// Flat maps against exact ones, and surfaces that are no disks.
+#include "Solvers/ParameterizationSolver.h"
+
+#include "Base/Errors.h"
+#include "Largest.h"
+#include "Meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <map>
+#include <set>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+using Solver = ParameterizationSolver;
+
+Solver::Options Type(FlatMap type)
+{
+  Solver::Options options;
+  options.mapType = static_cast<int>(type);
+  return options;
+}
+
+Solver::Result Flatten(
+  const TriangleMesh& mesh, const Solver::Options& options, int threads = 1, bool welds = true)
+{
+  SurfaceOptions surface;
+  surface.space.threads = threads;
+  surface.space.weldCoincidentPoints = welds;
+  return Solver::Solve(std::make_shared<const TriangleMesh>(mesh), options, surface);
+}
+
+Solver::Result Flatten(const TriangleMesh& mesh, FlatMap kind)
+{
+  return Flatten(mesh, Type(kind));
+}
+
+/// Moves every point of a rectangle with [0, 1] along both sides.
+TriangleMesh Bent(int nx, int ny, const std::function<Vec3(double, double)>& place)
+{
+  TriangleMesh mesh = FlatRectangle(nx, ny);
+  for (Vec3& point : mesh.points)
+  {
+    point = place(point[0], point[1]);
+  }
+  return mesh;
+}
+
+/// A part of a sphere around its pole. Lines of the square become rays and circles.
+TriangleMesh Cap(int n, double polarAngle)
+{
+  return Bent(n, n,
+    [&](double x, double y)
+    {
+      const double u = 2.0 * x - 1.0;
+      const double v = 2.0 * y - 1.0;
+      const double radius = std::max(std::abs(u), std::abs(v));
+      const double norm = std::hypot(u, v);
+      const double angle = radius * polarAngle;
+      const double scale = norm > 0.0 ? std::sin(angle) / norm : 0.0;
+      return Vec3(scale * u, scale * v, std::cos(angle));
+    });
+}
+
+double LargestSize(const std::vector<double>& values)
+{
+  double largest = 0.0;
+  for (const double value : values)
+  {
+    largest = Larger(largest, std::abs(value));
+  }
+  return largest;
+}
+
+/// The largest relative change of the length of a side.
+double LargestStretch(const TriangleMesh& mesh, const Solver::Result& result)
+{
+  double largest = 0.0;
+  for (const auto& corner : result.flat.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Id a = corner[k];
+      const Id b = corner[(k + 1) % 3];
+      const double length =
+        (mesh.points[result.flat.pointOf[a]] - mesh.points[result.flat.pointOf[b]]).norm();
+      const double flat = (result.flat.points.row(a) - result.flat.points.row(b)).norm();
+      largest = Larger(largest, std::abs(flat / length - 1.0));
+    }
+  }
+  return largest;
+}
+
+/// The largest distance between the map of a cap and the best turned, scaled and moved copy of its
+/// stereographic map, whose radius is 1.
+double StereographicError(const TriangleMesh& mesh, const Solver::Result& result, double polarAngle)
+{
+  using Complex = std::complex<double>;
+  std::vector<Complex> exact;
+  std::vector<Complex> map;
+  Complex meanExact = 0.0;
+  Complex meanMap = 0.0;
+  for (std::size_t v = 0; v < result.flat.pointOf.size(); ++v)
+  {
+    const Vec3& p = mesh.points[result.flat.pointOf[v]];
+    exact.push_back(Complex(p[0], p[1]) / (1.0 + p[2]) / std::tan(polarAngle / 2.0));
+    map.emplace_back(
+      result.flat.points(static_cast<Id>(v), 0), result.flat.points(static_cast<Id>(v), 1));
+    meanExact += exact.back() / double(mesh.points.size());
+    meanMap += map.back() / double(mesh.points.size());
+  }
+  Complex product = 0.0;
+  double square = 0.0;
+  for (std::size_t v = 0; v < map.size(); ++v)
+  {
+    product += std::conj(map[v] - meanMap) * (exact[v] - meanExact);
+    square += std::norm(map[v] - meanMap);
+  }
+  double largest = 0.0;
+  for (std::size_t v = 0; v < map.size(); ++v)
+  {
+    largest =
+      Larger(largest, std::abs(product / square * (map[v] - meanMap) - (exact[v] - meanExact)));
+  }
+  return largest;
+}
+
+/// Vertices - edges + triangles of a flat map.
+Id EulerOf(const Solver::Flat& flat)
+{
+  std::set<std::array<Id, 2>> edges;
+  std::set<Id> vertices;
+  for (const auto& c : flat.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      edges.insert({ std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3]) });
+      vertices.insert(c[k]);
+    }
+  }
+  return Id(vertices.size()) - Id(edges.size()) + Id(flat.triangles.size());
+}
+
+Id Turned(const Solver::Result& result)
+{
+  return std::count(result.flat.isTurned.begin(), result.flat.isTurned.end(), 1);
+}
+
+TriangleMesh Tube(int around, int along, double height)
+{
+  return Bent(around, along,
+    [&](double x, double y)
+    {
+      const double angle = 2.0 * Pi * (x < 1.0 ? x : 0.0);
+      return Vec3(std::cos(angle), std::sin(angle), height * y);
+    });
+}
+
+TriangleMesh MoebiusStrip(int along)
+{
+  TriangleMesh mesh = Bent(along, 4,
+    [](double x, double y)
+    {
+      const double angle = 2.0 * Pi * x;
+      const double r = 1.0 + 0.6 * (y - 0.5) * std::cos(angle / 2.0);
+      return Vec3(
+        r * std::cos(angle), r * std::sin(angle), 0.6 * (y - 0.5) * std::sin(angle / 2.0));
+    });
+  for (std::size_t a = 0; a < mesh.points.size(); ++a) // the ends coincide except for rounding
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      if ((mesh.points[a] - mesh.points[b]).norm() < 1e-9)
+      {
+        mesh.points[a] = mesh.points[b];
+      }
+    }
+  }
+  return mesh;
+}
+
+} // namespace
+
+/// Faces of these surfaces are planar, and their edges straight in the plane.
+TEST(ParameterizationSolver, DevelopableSurfacesKeepAllLengths)
+{
+  const std::map<std::string, TriangleMesh> surfaces{ { "rectangle",
+                                                        FlatRectangle(9, 5, 3.0, 0.7) },
+    { "wavy border", Bent(12, 8,
+                       [](double x, double y)
+                       {
+                         const double u = x + 0.1 * std::sin(7 * y);
+                         const double v = y + 0.1 * std::sin(8 * x);
+                         return Vec3(u, v, 0.3 * u - v);
+                       }) },
+    { "cylinder", Bent(30, 7,
+                    [](double x, double y)
+                    { return Vec3(2 * std::cos(4 * x), 2 * std::sin(4 * x), 5 * y * y); }) },
+    { "cone", Bent(30, 7,
+                [](double x, double y)
+                {
+                  const double r = 0.2 + y;
+                  return Vec3(r * std::cos(5 * x), r * std::sin(5 * x), 3 * r);
+                }) } };
+  for (const auto& [name, mesh] : surfaces)
+  {
+    for (const FlatMap kind : { FlatMap::Conformal, FlatMap::Isometric })
+    {
+      const Solver::Result result = Flatten(mesh, kind);
+      EXPECT_LT(LargestStretch(mesh, result), 1e-8) << name;
+      EXPECT_LT(LargestSize(result.flat.angle), 1e-4) << name; // degrees
+      EXPECT_LT(LargestSize(result.flat.area), 1e-7) << name;
+      EXPECT_EQ(Turned(result), 0) << name;
+      EXPECT_TRUE(result.warnings.empty());
+      EXPECT_FALSE(result.isCut);
+    }
+  }
+}
+
+/// The scale is the same along the boundary, a circle. The only such conformal map is the
+/// stereographic one. Linear triangles bring an error of second order, and angles of first.
+TEST(ParameterizationSolver, ACapTendsToItsStereographicMap)
+{
+  for (const double polarAngle : { 0.8, Pi / 2.0, 2.2 })
+  {
+    std::vector<double> error;
+    std::vector<double> angle;
+    for (const int n : { 16, 32, 64 })
+    {
+      const TriangleMesh mesh = Cap(n, polarAngle);
+      const Solver::Result result = Flatten(mesh, FlatMap::Conformal);
+      error.push_back(StereographicError(mesh, result, polarAngle));
+      angle.push_back(result.charts.front().angle);
+      EXPECT_EQ(Turned(result), 0);
+    }
+    EXPECT_LT(error[1], error[0] / 2.7) << polarAngle;
+    EXPECT_LT(error[2], error[1] / 2.7) << polarAngle;
+    EXPECT_LT(angle[1], angle[0] / 1.7) << polarAngle;
+    EXPECT_LT(angle[2], angle[1] / 1.7) << polarAngle;
+    EXPECT_LT(error[2], 2e-3) << polarAngle;
+  }
+}
+
+/// No map of a hemisphere keeps lengths. The isometric one changes areas less than the conformal.
+TEST(ParameterizationSolver, IsometricMapsChangeAreasLess)
+{
+  const TriangleMesh mesh = Cap(24, Pi / 2.0);
+  const Solver::Result conformal = Flatten(mesh, FlatMap::Conformal);
+  const Solver::Result isometric = Flatten(mesh, FlatMap::Isometric);
+  EXPECT_LT(isometric.charts[0].area, 0.7 * conformal.charts[0].area);
+  EXPECT_LT(LargestStretch(mesh, isometric), LargestStretch(mesh, conformal));
+  EXPECT_EQ(Turned(isometric), 0);
+}
+
+/// Thin triangles with negative cotangents would fold a harmonic map.
+TEST(ParameterizationSolver, TheCircleHasNoFolds)
+{
+  TriangleMesh mesh = Bent(40, 6,
+    [](double x, double y)
+    {
+      return Vec3(x + 0.3 * std::sin(40 * y) * y * (1 - y), 0.02 * y + 0.001 * std::sin(90 * x),
+        0.3 * std::sin(20 * x) * std::sin(17 * y));
+    });
+  const Solver::Result result = Flatten(mesh, FlatMap::Circle);
+  EXPECT_EQ(Turned(result), 0);
+  double area = 0.0;
+  for (const auto& c : mesh.triangles)
+  {
+    area +=
+      0.5 *
+      (mesh.points[c[1]] - mesh.points[c[0]]).cross(mesh.points[c[2]] - mesh.points[c[0]]).norm();
+  }
+  // The polygon on the circle has an area a little smaller than the circle.
+  const double radius = 0.5 * result.flat.points.col(0).maxCoeff<Eigen::PropagateNaN>();
+  EXPECT_NEAR(Pi * radius * radius / area, 1.0, 0.01);
+  int onCircle = 0;
+  for (Id v = 0; v < result.flat.points.rows(); ++v)
+  {
+    const double distance = (result.flat.points.row(v) - Eigen::RowVector2d(radius, radius)).norm();
+    EXPECT_LT(distance, 1.01 * radius);
+    onCircle += distance > 0.9999 * radius ? 1 : 0;
+  }
+  EXPECT_EQ(onCircle, 2 * (40 + 6));
+}
+
+TEST(ParameterizationSolver, SurfacesThatAreNoDisksAreOpened)
+{
+  struct Case
+  {
+    std::string name;
+    TriangleMesh mesh;
+    Id euler;
+    Id loops;
+  };
+  TriangleMesh holes = FlatRectangle(12, 12);
+  holes.triangles.erase(holes.triangles.begin() + 150, holes.triangles.begin() + 154);
+  holes.triangles.erase(holes.triangles.begin() + 50);
+  const std::vector<Case> cases{ { "sphere", GeodesicSphere(6), 2, 0 },
+    { "box of soup", Unweld(Box(4)), 2, 0 }, { "torus", Torus(30, 16, 2.0, 0.8), 0, 0 },
+    { "knot", TrefoilTube(150, 8), 0, 0 }, { "tube", Tube(24, 8, 3.0), 0, 2 },
+    { "plate with holes", holes, -1, 3 }, { "pulley", Pulley(24, 0.3), 0, 0 } };
+  for (const Case& c : cases)
+  {
+    for (const FlatMap kind : { FlatMap::Conformal, FlatMap::Isometric, FlatMap::Circle })
+    {
+      const Solver::Result result = Flatten(c.mesh, kind);
+      ASSERT_EQ(result.charts.size(), 1u) << c.name;
+      const Solver::Chart& chart = result.charts.front();
+      EXPECT_EQ(chart.topology.euler, c.euler) << c.name;
+      EXPECT_EQ(chart.topology.loops, c.loops) << c.name;
+      EXPECT_EQ(result.flat.triangles.size(), c.mesh.triangles.size()) << c.name;
+      EXPECT_EQ(EulerOf(result.flat), 1 - chart.filled) << c.name;
+      EXPECT_TRUE(result.flat.texture.allFinite());
+      EXPECT_EQ(result.flat.texture.minCoeff<Eigen::PropagateNaN>(), 0.0);
+      EXPECT_EQ(result.flat.texture.maxCoeff<Eigen::PropagateNaN>(), 1.0);
+      EXPECT_EQ(Turned(result), chart.turned);
+      EXPECT_EQ(Turned(result), 0) << c.name << " " << int(kind);
+    }
+  }
+}
+
+/// The tube is cut along its height, and becomes a rectangle.
+TEST(ParameterizationSolver, ATubeIsUnrolled)
+{
+  const TriangleMesh mesh = Tube(24, 8, 3.0);
+  const Solver::Result result = Flatten(mesh, FlatMap::Conformal);
+  EXPECT_EQ(result.charts.front().cutEdges, 8);
+  EXPECT_LT(LargestStretch(mesh, result), 1e-8);
+  const double around = 24 * 2.0 * std::sin(Pi / 24.0);
+  EXPECT_NEAR(result.flat.points.col(0).maxCoeff<Eigen::PropagateNaN>(), around, 1e-8);
+  EXPECT_NEAR(result.flat.points.col(1).maxCoeff<Eigen::PropagateNaN>(), 3.0, 1e-8);
+  Solver::Options filled;
+  filled.holeSize = 1.0;
+  const Solver::Result capped = Flatten(mesh, filled);
+  EXPECT_EQ(capped.charts.front().filled, 1);
+  EXPECT_FALSE(capped.isCut);
+}
+
+TEST(ParameterizationSolver, AStripWithOneSideIsCut)
+{
+  const Solver::Result result = Flatten(MoebiusStrip(40), FlatMap::Isometric);
+  ASSERT_EQ(result.charts.size(), 1u);
+  EXPECT_EQ(EulerOf(result.flat), 1);
+  EXPECT_EQ(Turned(result), 0);
+}
+
+/// Sheets that touch, edges of three triangles, triangles that face against each other, and
+/// triangles without area.
+TEST(ParameterizationSolver, EveryPieceIsAChart)
+{
+  TriangleMesh mesh = FlatRectangle(4, 4);
+  const TriangleMesh other = Transform(FlatRectangle(3, 3), { 1, 0, 0 }, 1.0);
+  mesh = Join(mesh, other); // shares an edge of the border
+  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+  mesh.points.push_back({ 0.1, 0.2, 5.0 });
+  const auto first = mesh.triangles[10];
+  mesh.triangles.push_back({ first[0], first[1], Id(mesh.points.size()) - 1 });
+  mesh.triangles.push_back({ first[0], first[0], first[1] });
+  const Solver::Result result = Flatten(mesh, FlatMap::Conformal);
+  EXPECT_EQ(result.charts.size(), 3u);
+  EXPECT_EQ(result.flat.triangles.size(), mesh.triangles.size() - 1);
+  EXPECT_EQ(Turned(result), 0);
+  EXPECT_TRUE(std::is_sorted(result.flat.triangleOf.begin(), result.flat.triangleOf.end()));
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    const Id vertex = result.flat.vertexOf[p];
+    ASSERT_GE(vertex, 0) << p;
+    EXPECT_EQ(mesh.points[result.flat.pointOf[vertex]], mesh.points[p]);
+  }
+  EXPECT_TRUE(std::is_sorted(result.flat.pointOf.begin(), result.flat.pointOf.end()));
+}
+
+TEST(ParameterizationSolver, SameBitsOnAnyNumberOfThreads)
+{
+  const TriangleMesh mesh = Torus(60, 40, 2.0, 0.8);
+  for (const FlatMap kind : { FlatMap::Conformal, FlatMap::Isometric, FlatMap::Circle })
+  {
+    const Solver::Result one = Flatten(mesh, Type(kind), 1);
+    const Solver::Result three = Flatten(mesh, Type(kind), 3);
+    EXPECT_TRUE(one.flat.points == three.flat.points);
+    EXPECT_EQ(one.flat.triangles, three.flat.triangles);
+    EXPECT_EQ(one.flat.area, three.flat.area);
+  }
+}
+
+TEST(ParameterizationSolver, MoreCutsDistortLess)
+{
+  const TriangleMesh mesh = GeodesicSphere(12);
+  Solver::Options more = Type(FlatMap::Isometric);
+  const double one = Flatten(mesh, more).charts.front().area;
+  more.extraCuts = 6;
+  const Solver::Result result = Flatten(mesh, more);
+  EXPECT_LT(result.charts.front().area, 0.8 * one);
+  EXPECT_EQ(EulerOf(result.flat), 1);
+}
+
+TEST(ParameterizationSolver, RefusesWhatHasNoTriangles)
+{
+  TriangleMesh mesh;
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 } };
+  mesh.triangles = { { 0, 1, 1 } };
+  EXPECT_THROW(Flatten(mesh, FlatMap::Conformal), InvalidInput);
+  Solver::Options options;
+  options.holeSize = 1.5;
+  EXPECT_THROW(Flatten(Box(2), options), InvalidInput);
+}
+
+/// Halves of scans: the map turns no triangle over.
+TEST(ParameterizationSolver, HalvesOfScansHaveNoFolds)
+{
+  for (const std::string name : { "stanford_bunny.ply", "rocker_arm.ply", "armadillo_100k.ply" })
+  {
+    const std::string path = RealMesh(name);
+    if (path.empty())
+    {
+      GTEST_SKIP() << "needs GRIDFEM_DATA_DIR";
+    }
+    TriangleMesh mesh = ReadMesh(path);
+    const Bounds bounds = BoundsOf(mesh.points);
+    const double middle = 0.5 * (bounds.low[1] + bounds.high[1]);
+    mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(),
+                           [&](const auto& c) { return mesh.points[c[0]][1] < middle; }),
+      mesh.triangles.end());
+    for (const FlatMap kind : { FlatMap::Conformal, FlatMap::Isometric, FlatMap::Circle })
+    {
+      const Solver::Result result = Flatten(mesh, kind);
+      EXPECT_EQ(Turned(result), 0) << name << " " << int(kind);
+    }
+  }
+}
