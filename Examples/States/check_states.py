@@ -25,6 +25,7 @@ STATES = {
     "interpolation": ("Biharmonic", "Interpolated", 0),
     "modes": ("LaplaceSpectrum1", "Mode", 19),
     "octree": ("Basis", "BasisFunction", 0),
+    "flatten": ("Conformal", "TCoords", 0),
     "path": ("Lines of Paths", "ArcLength", 0),
     "poisson": ("Smoothed", "Solution", 0),
     "gaussian_field": ("Sample", "Sample000", 0),

@@ -187,6 +187,19 @@ def path(points, cells, ids, closed=False, **properties):
     return places, corners, weights
 
 
+def parameterize(points, cells, **properties):
+    """Flattens the surface: maps it to the plane.
+
+    MapType is Conformal, Isometric or Circle. Returns four arrays. The first has the flat vertices (K, 2).
+    The second has the triangles between them (T, 3). The third has the point of the mesh at each vertex;
+    vertices on a cut share points. The last has the distortion of each triangle (T, 2): the angle in
+    degrees, which is 180 if the triangle is turned over, and the binary logarithm of the area's change.
+    """
+    results = _solve("Parameterization", points, cells, {}, properties)
+    triangles, origin = (results[name].astype(numpy.int64) for name in ("FlatTriangles", "SurfacePoint"))
+    return results["FlatPoints"], triangles, origin, results["Distortion"]
+
+
 def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None, sigma=None,
             **properties):
     """Computes values after heat has spread, in 8 steps: smooths them by a Gaussian along the surface.

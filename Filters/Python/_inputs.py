@@ -92,6 +92,7 @@ CHOICES = {
     "Amount": ("Time", "FullWidth", "StandardDeviation"),
     "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
+    "MapType": ("Conformal", "Isometric", "Circle"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),
     "ParameterUnits": ("World", "UnitArea", "UnitCube"),
     "Rescale": ("Automatic", "NoRescale", "ConstantArea", "ConstantVolume"),

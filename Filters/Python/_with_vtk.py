@@ -79,6 +79,15 @@ class _Results:
             points = self.output.GetPointData()
             names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
             return numpy.column_stack([self[name] for name in names if name.startswith("Sample")])
+        if name == "FlatPoints":
+            flat = vtk_to_numpy(self.outputs[-1].GetPoints().GetData())[:, :2]
+            return flat - flat.min(axis=0)
+        if name == "FlatTriangles":
+            return vtk_to_numpy(self.outputs[-1].GetPolys().GetConnectivityArray()).reshape(-1, 3).copy()
+        if name == "Distortion":
+            cells = self.outputs[-1].GetCellData()
+            return numpy.column_stack([vtk_to_numpy(cells.GetArray(kind + "Distortion"))
+                                       for kind in ("Angle", "Area")])
         attributes = (data for output in self.outputs for data in (
             output.GetPointData(), output.GetCellData(), output.GetFieldData()))
         found = next(a for a in attributes if a.HasArray(name))

@@ -29,7 +29,7 @@ JOBS = {
     "eigenfunctions": "LaplaceSpectrum", "eigenvalues": "LaplaceSpectrum",
     "harmonic": "HarmonicInterpolation", "heat kernel": "SpectralSignatures",
     "geodesic": "GeodesicDistance", "shortest path": "GeodesicPaths",
-    "curvature": "PrincipalCurvatures", "unfold": "MeanCurvatureFlow", "kriging": "GaussianField",
+    "curvature": "PrincipalCurvatures", "flatten": "Parameterization", "unfold": "MeanCurvatureFlow", "kriging": "GaussianField",
     "random field": "GaussianField", "fill in": "HarmonicInterpolation"}
 
 

@@ -182,6 +182,11 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.flow(p, c, 2, TrackMetric=False, **o))
         self.compare(lambda g, p, c, **o: g.flow(p, c, 2, FixedBoundary=True, **o))
 
+    def test_parameterization(self):
+        for kind in ("Conformal", "Isometric", "Circle"):
+            for index in range(4):
+                self.compare(lambda g, p, c, **o: g.parameterize(p, c, MapType=kind)[index])
+
     def test_gradient(self):
         self.compare(lambda g, p, c, **o: g.gradient(p, c, p[:, :2] ** 2, **o))
         self.compare(lambda g, p, c, **o: g.gradient(p, c, p[c[:, 0], 0], Tolerance=1e-6, **o))
@@ -203,7 +208,7 @@ class Engines(unittest.TestCase):
         module = sys.modules["gridfem_core._without_vtk"]._core
         for name in ("FarthestPoints", "GaussianField", "GeodesicDistance", "GeodesicPaths",
                      "HarmonicInterpolation", "HeatDiffusion",
-                     "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
+                     "LaplaceSpectrum", "MeanCurvatureFlow", "Parameterization", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
                      "SurfaceDetail", "SurfaceGradient"):
             algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
@@ -232,7 +237,7 @@ class Engines(unittest.TestCase):
     def test_choices_are_those_of_the_filters(self):
         owners = {"Amount": "HeatDiffusion", "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
-                  "FunctionSpace": "ScreenedPoisson", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
+                  "FunctionSpace": "ScreenedPoisson", "MapType": "Parameterization", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
         choices = sys.modules["gridfem_core._inputs"].CHOICES
         self.assertEqual(choices.keys(), owners.keys())
         for choice, names in choices.items():

@@ -78,6 +78,7 @@ STARTS = {
                        "ConstraintArray": [POINTS, "p_mask"], "DiffusionTime": 0.01}, {}],
     "LaplaceSpectrum": [{"NumberOfModes": 4, "AllModes": 1}, {"NumberOfModes": 4}],
     "MeanCurvatureFlow": [{"NumberOfSteps": 2}, {"NumberOfSteps": 2, "Conformalized": 1}],
+    "Parameterization": [{}, {"MapType": 2}],
     "PrincipalCurvatures": [{}, {"SmoothingScale": 0.1}],
     "ScreenedPoisson": [{"Tolerance": 1e-12, "ValueArray": [POINTS, "p_f"], "ScreeningWeight": 100},
                         {"Tolerance": 1e-12,

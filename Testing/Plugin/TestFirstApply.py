@@ -21,13 +21,14 @@ COLORED_BY = {
     "HeatDiffusion": ("POINTS", "NormalDisplacement"),
     "LaplaceSpectrum": ("POINTS", "Mode"),
     "MeanCurvatureFlow": (None, ""),  # the shape itself moves
+    "Parameterization": ("CELLS", "AreaDistortion"),
     "PrincipalCurvatures": ("POINTS", "Bending"),
     "ScreenedPoisson": ("POINTS", "NormalDisplacement"),
     "SpectralSignatures": ("POINTS", "Signature"),
     "StitchColors": ("POINTS", "StitchedColors"),
     "SurfaceDetail": ("POINTS", "NormalDisplacement"),
     "SurfaceGradient": ("POINTS", "Laplacian")}
-ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement", "Sample000")
+ZERO_IN_THE_MIDDLE = ("AreaDistortion", "Bending", "Mode", "NormalDisplacement", "Sample000")
 
 # Signed arrays that a filter has besides the one that colors it first.
 SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIndex", "MinimumCurvature",
@@ -35,7 +36,7 @@ SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIn
           "SurfaceGradient": ("Laplacian",)}
 
 SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1, 2},
-               "MeanCurvatureFlow": {0, 1, 2}}
+               "MeanCurvatureFlow": {0, 1, 2}, "Parameterization": {0, 1}}
 
 
 class FirstApply(unittest.TestCase):

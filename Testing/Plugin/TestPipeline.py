@@ -40,7 +40,8 @@ class TestPipeline(unittest.TestCase):
             "LaplaceSpectrum": ["vtkTable", "vtkTable"],
             "MeanCurvatureFlow": ["vtkTable", "vtkTable"],
             "SpectralSignatures": ["vtkTable"],
-            "GeodesicPaths": ["vtkPolyData"]}
+            "GeodesicPaths": ["vtkPolyData"],
+            "Parameterization": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):

@@ -32,6 +32,7 @@ CHANGES = {
     "GaussianField": ("Seed", "7"), "GeodesicPaths": ("PathType", "3"),
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
+    "Parameterization": ("MapType", "1"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),
     "SpectralSignatures": ("NumberOfScales", "5"), "StitchColors": ("ReferenceLabel", "1"),
     "SurfaceDetail": ("DetailScale", "3"), "SurfaceGradient": ("Array", "height")}
@@ -40,7 +41,7 @@ STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 
 
 # Filters that compute on the mesh itself, without a grid.
-WITHOUT_GRID = ("GeodesicPaths",)
+WITHOUT_GRID = ("GeodesicPaths", "Parameterization")
 
 
 def depth_of(name, depth):

@@ -14,6 +14,7 @@
 #include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkMeanCurvatureFlow.h"
+#include "vtkParameterization.h"
 #include "vtkPrincipalCurvatures.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
@@ -106,6 +107,7 @@ inline auto AllFilters()
     FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },
     FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow> },
+    FilterCase{ "Parameterization", &Make<vtkParameterization> },
     FilterCase{ "PrincipalCurvatures", &Make<vtkPrincipalCurvatures> },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson> },
     FilterCase{ "ScreenedPoissonOnHats", &MakeHats },

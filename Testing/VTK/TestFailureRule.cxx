@@ -67,7 +67,7 @@ int PowerOfLength(const std::string& array)
     { "MinimumCurvature", -1 }, { "MinimumCurvatureDirection", 0 }, { "Mode", -1 },
     { "NearestPoint", 0 }, { "NormalDisplacement", 1 }, { "PathId", 0 }, { "Prediction", 0 },
     { "QuasiConformalError", 0 }, { "Sample000", 0 }, { "ShapeIndex", 0 }, { "Signature", 0 },
-    { "Solution", 0 }, { "StitchedColors", 0 }, { "WaveKernelSignature", 0 } };
+    { "Solution", 0 }, { "StitchedColors", 0 }, { "TCoords", 0 }, { "WaveKernelSignature", 0 } };
   const auto found = powers.find(array);
   EXPECT_TRUE(found != powers.end()) << array << " has no unit in this test";
   return found == powers.end() ? 0 : found->second;
@@ -92,10 +92,15 @@ std::vector<vtkDataArray*> AddedArrays(vtkDataSetAttributes* output, vtkDataSetA
   return added;
 }
 
+bool NeedsNoFunctions(vtkAlgorithm* filter)
+{
+  return filter->IsA("vtkGeodesicPaths") || filter->IsA("vtkParameterization");
+}
+
 /// The stage that reads the mesh.
 const char* FirstStageOf(vtkAlgorithm* filter)
 {
-  return filter->IsA("vtkGeodesicPaths") ? "Mesh" : "Space"; // it needs no functions
+  return NeedsNoFunctions(filter) ? "Mesh" : "Space";
 }
 
 /// Expects numbers at the points that a polygon uses. The other points have none, or that of a
@@ -445,7 +450,7 @@ TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
 {
   filter->SetDepth(14); // about 1.6e9 cells: more than a terabyte
   const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
-  const bool needsNoGrid = filter->IsA("vtkGeodesicPaths");
+  const bool needsNoGrid = NeedsNoFunctions(filter);
   if (needsNoGrid || (isOnHats && !filter->IsA("vtkGeodesicDistance"))) // whose heat flows on it
   {
     this->ExpectComputed(Surface(GeodesicSphere(8))); // hats are over a grid that is as coarse
@@ -458,7 +463,7 @@ TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
 TEST_P(FailureRule, AnUnknownQuadratureDegreeIsRefused)
 {
   filter->SetQuadratureDegree(3);
-  if (filter->IsA("vtkConnectivityAwareBasis") || filter->IsA("vtkGeodesicPaths"))
+  if (filter->IsA("vtkConnectivityAwareBasis") || NeedsNoFunctions(filter))
   {
     this->ExpectComputed(Surface(GeodesicSphere(4))); // they integrate nothing
     return;

@@ -36,6 +36,7 @@ const std::map<std::string, MakeProblem> Problems = {
   { "HeatDiffusion", &MakeDiffusion },
   { "LaplaceSpectrum", &MakeSpectrum },
   { "MeanCurvatureFlow", &MakeFlow },
+  { "Parameterization", &MakeParameterization },
   { "PrincipalCurvatures", &MakeCurvatures },
   { "ScreenedPoisson", &MakePoisson },
   { "SpectralSignatures", &MakeSignatures },

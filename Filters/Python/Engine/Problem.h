@@ -62,6 +62,7 @@ std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGaussianField(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
+std::unique_ptr<Problem> MakeParameterization(Properties& properties);
 std::unique_ptr<Problem> MakePath(Properties& properties);
 std::unique_ptr<Problem> MakePoisson(Properties& properties);
 std::unique_ptr<Problem> MakeSignatures(Properties& properties);

@@ -36,7 +36,7 @@ def value_of(proxy, name):
 
 
 # The ports that are shown in the 3D view, if it is not port 0 alone.
-SURFACES = {"GeodesicPaths": [0, 1], "ClipToOctree": [0, 2]}
+SURFACES = {"GeodesicPaths": [0, 1], "Parameterization": [0, 1], "ClipToOctree": [0, 2]}
 # The series of a chart that opens beside a filter, and the titles of its axes.
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
 # Filters that tell in the view what is shown.

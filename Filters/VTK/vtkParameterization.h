@@ -1,0 +1,101 @@
+/**
+ * @class   vtkParameterization
+ * @brief   flattens a surface: texture coordinates, and the surface as a map
+ *
+ * Maps a surface to the plane. Each connected component becomes a chart of its own. A component
+ * that is no disk is opened first: small holes are filled for the computation, and the surface is
+ * cut along edges. Cuts run around handles, between long loops of the boundary, and across a closed
+ * surface. Two charts never overlap. One chart may overlap itself unless the map is a circle.
+ *
+ * MapType determines what the map keeps. Conformal (default) keeps angles, and the scale along the
+ * boundary (Sawhney and Crane 2017, Boundary First Flattening). Isometric changes lengths as little
+ * as possible (Liu et al. 2008, As Rigid As Possible). Circle maps every component onto a disk,
+ * without folds (Tutte 1963).
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips.
+ *
+ * Output port 0 (vtkPolyData): the input with the following arrays.
+ * - cell data, double: `AngleDistortion`, the largest change of the angle between two directions,
+ *   degrees. 180 at triangles that the map turns over.
+ * - cell data, double: `AreaDistortion`, the binary logarithm of the change of area. 0 means no
+ *   change, 1 the double area. Areas are relative to a map with the area of the surface.
+ * - cell data, vtkIdType: `ChartId`, the number of the component.
+ * - point data, double: `TCoords`, active texture coordinates in the unit square. They are missing
+ *   if the surface was cut, because a point on a cut has two places in the map.
+ * - field data, vtkIdType, one number per chart: `EulerCharacteristic` and `BoundaryLoops` of the
+ *   component as it was given, `FlippedTriangles`, the number of triangles turned over. The filter
+ *   warns about them.
+ *
+ * Output port 1 (vtkPolyData): the flat triangles, beside the surface, with the arrays of the input
+ * and of port 0. `TCoords` are always there. Points on cuts are there twice.
+ * - point data, double: `SurfacePosition` (3 components), the place on the surface.
+ * - point data, vtkIdType: `SurfacePoint`, the id of the point in the input.
+ *
+ * The filter needs no functions. It uses only WeldCoincidentPoints, NumberOfThreads, BlocksAsOne
+ * and the DomainArray of the shared properties. On several MPI ranks the surface is gathered, and
+ * port 1 is on rank 0.
+ */
+#ifndef vtkParameterization_h
+#define vtkParameterization_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkParameterization : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkParameterization* New();
+  vtkTypeMacro(vtkParameterization, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum MapTypeType
+  {
+    Conformal = 0,
+    Isometric = 1,
+    Circle = 2
+  };
+  ///@{
+  /**
+   * What the map keeps. Default Conformal.
+   */
+  vtkSetInRangeMacro(MapType, int, Conformal, Circle);
+  vtkGetMacro(MapType, int);
+  ///@}
+
+  ///@{
+  /**
+   * Loops of the boundary up to this fraction of the longest loop are holes. They are filled for
+   * the computation. Cuts connect longer loops. 0..1, default 0.5.
+   */
+  vtkSetInRangeMacro(HoleSize, double, 0.0, 1.0);
+  vtkGetMacro(HoleSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * The number of cuts toward the points farthest from all cuts and boundaries. They lower the
+   * distortion of areas. A closed surface without handles has at least one. 0..100, default 0.
+   */
+  vtkSetInRangeMacro(ExtraCuts, int, 0, 100);
+  vtkGetMacro(ExtraCuts, int);
+  ///@}
+
+protected:
+  vtkParameterization();
+  ~vtkParameterization() override;
+
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
+
+  int MapType = Conformal;
+  double HoleSize = 0.5;
+  int ExtraCuts = 0;
+
+private:
+  vtkParameterization(const vtkParameterization&) = delete;
+  void operator=(const vtkParameterization&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

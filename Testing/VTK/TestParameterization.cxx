@@ -1,0 +1,84 @@
+// Parameterization as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkParameterization.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+vtkSmartPointer<vtkParameterization> Flattened(vtkPolyData* surface)
+{
+  auto filter = vtkSmartPointer<vtkParameterization>::New();
+  filter->SetInputData(surface);
+  filter->Update();
+  return filter;
+}
+
+vtkPolyData* FlatOf(vtkParameterization* filter)
+{
+  return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
+}
+
+} // namespace
+
+/// A rectangle stays as it is. Texture coordinates have its aspect ratio.
+TEST(Parameterization, ARectangleKeepsItsShape)
+{
+  const auto surface = ToPolyData(FlatRectangle(8, 4, 3.0, 1.5));
+  AddPointArray(surface, "x", 1, [](const Vec3& p, int) { return p[0]; });
+  const auto filter = Flattened(surface);
+  vtkPolyData* flat = FlatOf(filter);
+  ASSERT_EQ(flat->GetNumberOfPoints(), surface->GetNumberOfPoints());
+  ASSERT_EQ(flat->GetNumberOfCells(), surface->GetNumberOfCells());
+  double bounds[6];
+  flat->GetBounds(bounds);
+  EXPECT_NEAR(bounds[1] - bounds[0], 3.0, 1e-9);
+  EXPECT_NEAR(bounds[3] - bounds[2], 1.5, 1e-9);
+  EXPECT_EQ(bounds[4], bounds[5]);
+  EXPECT_GT(bounds[0], 3.0); // beside the surface
+  vtkDataArray* texture = filter->GetOutput()->GetPointData()->GetTCoords();
+  ASSERT_TRUE(texture);
+  EXPECT_EQ(texture->GetNumberOfComponents(), 2);
+  double range[2];
+  texture->GetRange(range, 0);
+  EXPECT_EQ(range[1], 1.0);
+  texture->GetRange(range, 1);
+  EXPECT_NEAR(range[1], 0.5, 1e-9);
+  for (const double angle : Values(filter->GetOutput()->GetCellData()->GetArray("AngleDistortion")))
+  {
+    EXPECT_NEAR(angle, 0.0, 1e-4);
+  }
+  EXPECT_TRUE(flat->GetPointData()->HasArray("x"));
+}
+
+/// Points on the cut are there twice. Each knows its place on the surface.
+TEST(Parameterization, AClosedSurfaceIsCut)
+{
+  const TriangleMesh mesh = GeodesicSphere(6);
+  const auto surface = ToPolyData(mesh);
+  const auto filter = Flattened(surface);
+  vtkPolyData* flat = FlatOf(filter);
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->GetTCoords());
+  EXPECT_TRUE(flat->GetPointData()->GetTCoords());
+  EXPECT_GT(flat->GetNumberOfPoints(), surface->GetNumberOfPoints());
+  EXPECT_EQ(flat->GetNumberOfCells(), surface->GetNumberOfCells());
+  vtkFieldData* field = filter->GetOutput()->GetFieldData();
+  EXPECT_EQ(field->GetArray("EulerCharacteristic")->GetTuple1(0), 2);
+  EXPECT_EQ(field->GetArray("BoundaryLoops")->GetTuple1(0), 0);
+  EXPECT_EQ(field->GetArray("FlippedTriangles")->GetTuple1(0), 0);
+  for (vtkIdType k = 0; k < flat->GetNumberOfPoints(); ++k)
+  {
+    const auto point =
+      static_cast<std::size_t>(flat->GetPointData()->GetArray("SurfacePoint")->GetTuple1(k));
+    Vec3 place;
+    flat->GetPointData()->GetArray("SurfacePosition")->GetTuple(k, place.data());
+    EXPECT_EQ(place, mesh.points[point]);
+  }
+}
