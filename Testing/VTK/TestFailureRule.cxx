@@ -59,7 +59,8 @@ void ChooseArray(vtkAlgorithm* filter)
 /// the constant mode is 1 / sqrt(area).
 int PowerOfLength(const std::string& array)
 {
-  static const std::map<std::string, int> powers = { { "Bending", 0 }, { "Diffused", 0 },
+  static const std::map<std::string, int> powers = { { "AngleDistortion", 0 },
+    { "AreaDistortion", 0 }, { "Bending", 0 }, { "ChartId", 0 }, { "Diffused", 0 },
     { "Displacement", 1 }, { "Distance", 1 }, { "ConformalFactor", 0 }, { "Filtered", 0 },
     { "GaussianCurvature", -2 }, { "Gradient", -1 }, { "HeatKernelSignature", 0 },
     { "Interpolated", 0 }, { "Laplacian", -2 }, { "LeaveOneOutError", 0 },
