@@ -294,9 +294,11 @@ Eigen::MatrixXd DiskMap::LayOutBoundary()
 
 MultiVector DiskMap::Conformal(const Job& job)
 {
+  job.Check(0.1);
   const Eigen::MatrixXd boundary = this->LayOutBoundary();
   job.Check(0.5);
   const MultiVector extended = this->Extend(boundary);
+  job.Check(0.6);
   const auto edges = static_cast<Index>(disk_.loop.size());
   Eigen::MatrixXd flux = Eigen::MatrixXd::Zero(stiffness_.rows(), 2); // of the conjugates
   for (Index k = 0; k < edges; ++k)
