@@ -14,6 +14,7 @@
 #include "Pipeline/FailureDump.h"
 #include "Pipeline/FilterState.h"
 #include "Pipeline/PipelineTime.h"
+#include "Pipeline/ServedAbort.h"
 
 #include "Base/LargeMemory.h"
 
@@ -25,7 +26,6 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkVersionMacros.h"
 
 #include <algorithm>
 #include <new>
@@ -163,6 +163,11 @@ int vtkSurfaceFEMAlgorithm::RequestUpdateExtent(
 int vtkSurfaceFEMAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (gridfem::IsStillAborted(this))
+  {
+    this->FinishAbort(outputs);
+    return 1;
+  }
   gridfem::FilterOptions& options = this->State->options;
   options.space.depth = this->Depth;
   options.space.connectivityAware = this->ConnectivityAware;
@@ -363,10 +368,7 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
 {
   EmptyOutputs(outputs);
-  this->AbortExecute = 0; // the request is served; it would empty the next run
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
-  this->SetAbortOutput(true); // the pipeline marks the outputs, so that nothing runs on them
-#endif
+  gridfem::ServeAbort(this);
 }
 
 vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(const char* stage)
