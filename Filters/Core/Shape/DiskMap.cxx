@@ -318,7 +318,7 @@ bool DiskMap::HasTurned(const MultiVector& plane) const
 {
   const auto distortions = MeasureDistortion(disk_, sides_, plane);
   return std::any_of(distortions.begin(), distortions.end(),
-    [](const MapDistortion& distortion) { return distortion.isTurned; });
+    [](const ChartDistortion& distortion) { return distortion.isTurned; });
 }
 
 MultiVector DiskMap::ToCircle(const Job& job)

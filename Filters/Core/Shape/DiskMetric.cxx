@@ -96,10 +96,10 @@ std::vector<TriangleSides> MeasureTriangles(const Disk& disk)
   return sides;
 }
 
-std::vector<MapDistortion> MeasureDistortion(
+std::vector<ChartDistortion> MeasureDistortion(
   const Disk& disk, const std::vector<TriangleSides>& sides, const MultiVector& plane)
 {
-  std::vector<MapDistortion> distortions;
+  std::vector<ChartDistortion> distortions;
   for (std::size_t t = 0; t < disk.triangles.size(); ++t)
   {
     const auto& corner = disk.triangles[t];
@@ -114,7 +114,7 @@ std::vector<MapDistortion> MeasureDistortion(
     // half the difference of the singular values.
     const double keeps = std::hypot(J(0, 0) + J(1, 1), J(1, 0) - J(0, 1));
     const double mirrors = std::hypot(J(0, 0) - J(1, 1), J(1, 0) + J(0, 1));
-    MapDistortion distortion{};
+    ChartDistortion distortion{};
     distortion.isTurned = !(TwiceAreaInPlane(corner, plane) > 0.0);
     distortion.angle =
       distortion.isTurned ? 180.0 : 2.0 * std::asin(std::min(mirrors / keeps, 1.0)) / Degree;

@@ -28,7 +28,7 @@ struct TriangleSides
 std::vector<TriangleSides> MeasureTriangles(const Disk& disk);
 
 /// How a map to the plane distorts a triangle.
-struct MapDistortion
+struct ChartDistortion
 {
   /// The largest change of the angle between two directions, degrees. 0: angles stay. 180: the
   /// triangle collapses or is turned over.
@@ -38,7 +38,7 @@ struct MapDistortion
 };
 
 /// @param plane  a row of two coordinates for each vertex
-std::vector<MapDistortion> MeasureDistortion(
+std::vector<ChartDistortion> MeasureDistortion(
   const Disk& disk, const std::vector<TriangleSides>& sides, const MultiVector& plane);
 
 /// Total area of the triangles in the plane, negative if turned over. Filled holes do not count.

@@ -64,7 +64,7 @@ void NoteVertices(
 void AddTriangles(const Disk& disk, const std::vector<TriangleSides>& sides,
   const MultiVector& plane, const std::vector<Id>& vertexOf, Index number, Chart& chart, Flat& flat)
 {
-  const std::vector<MapDistortion> distortions = MeasureDistortion(disk, sides, plane);
+  const std::vector<ChartDistortion> distortions = MeasureDistortion(disk, sides, plane);
   double total = 0.0;
   for (std::size_t t = 0; t < disk.triangles.size(); ++t)
   {
@@ -76,7 +76,7 @@ void AddTriangles(const Disk& disk, const std::vector<TriangleSides>& sides,
     flat.triangles.push_back({ vertexOf[c[0]], vertexOf[c[1]], vertexOf[c[2]] });
     flat.triangleOf.push_back(disk.triangleOf[t]);
     flat.chart.push_back(number);
-    const MapDistortion& distortion = distortions[t];
+    const ChartDistortion& distortion = distortions[t];
     flat.angle.push_back(distortion.angle);
     flat.area.push_back(distortion.area);
     flat.isTurned.push_back(distortion.isTurned ? 1 : 0);

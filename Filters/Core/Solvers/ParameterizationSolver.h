@@ -64,7 +64,7 @@ public:
     std::vector<std::array<Id, 3>> triangles; // face up, unless turned over
     std::vector<Id> triangleOf;               // ascending: triangle of the mesh
     std::vector<Index> chart;                 // of each triangle
-    std::vector<double> angle;                // MapDistortion, per triangle
+    std::vector<double> angle;                // ChartDistortion, per triangle
     std::vector<double> area;
     std::vector<char> isTurned;
   };
