@@ -14,7 +14,7 @@ import sys
 from paraview import simple
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
-# For each state a source, an array of points there, and the time steps that it has at least.
+# For each state a source, an array of points at one of its ports, and the time steps that it has at least.
 STATES = {
     "curvatures": ("Curvatures", "ShapeIndex", 0),
     "detail": ("smoothed, everywhere", "NormalDisplacement", 0),
@@ -64,7 +64,9 @@ def is_as_expected(name, picture):
     source_name, array, expected = STATES[name]
     load(name)
     source = simple.FindSource(source_name)
-    low, high = source.PointData[array].GetRange()
+    found = [simple.OutputPort(source, port).PointData[array]
+             for port in range(source.SMProxy.GetNumberOfOutputPorts())]
+    low, high = next(information for information in found if information).GetRange()
     steps = len(getattr(source, "TimestepValues", []))
     shown = [colors(view) for view in simple.GetViews() if view.IsA("vtkSMRenderViewProxy")]
     print(f"{name}: {steps} time steps; {array} lies between {low:.3g} and {high:.3g}; {shown} colors",

@@ -818,6 +818,12 @@ void Turn(std::vector<double>& vectors, const std::vector<double>& expected)
   }
 }
 
+/// Whether an array has numbers of parts, which are all 0 if there is one part.
+bool HasNumbersOfParts(const std::string& name)
+{
+  return name == "ChartId";
+}
+
 /// Compares arrays, relative to their largest values.
 void ExpectEqual(Results results, const Results& expected, double tolerance)
 {
@@ -833,8 +839,8 @@ void ExpectEqual(Results results, const Results& expected, double tolerance)
       Turn(found, values);
     }
     const double largest = Difference(values, std::vector<double>(values.size(), 0.0));
-    EXPECT_GT(largest, 0.0) << name;
-    EXPECT_LT(Difference(found, values), tolerance * largest) << name;
+    EXPECT_TRUE(largest > 0.0 || HasNumbersOfParts(name)) << name;
+    EXPECT_LE(Difference(found, values), tolerance * largest) << name;
   }
 }
 

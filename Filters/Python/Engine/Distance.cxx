@@ -29,8 +29,8 @@ Results DistanceResults(const Given& given, const SurfaceOptions& surface,
 
 std::unique_ptr<Problem> MakeDistance(Properties& properties)
 {
-  return MakeSolverProblem<DistanceSolver>(
-    properties, DistanceSolver::SurfaceDefaults(), &DistanceResults);
+  return MakeSolverProblem<DistanceSolver>(properties, DistanceSolver::SurfaceDefaults(),
+    &DistanceResults, DistanceOptions::LeastStabilization);
 }
 
 } // namespace gridfem

@@ -24,8 +24,9 @@ Results FarthestPointsResults(const Given& given, const SurfaceOptions& surface,
 
 std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties)
 {
-  return MakeSolverProblem<FarthestPointsSolver>(
-    properties, FarthestPointsSolver::SurfaceDefaults(), &FarthestPointsResults);
+  return MakeSolverProblem<FarthestPointsSolver>(properties,
+    FarthestPointsSolver::SurfaceDefaults(), &FarthestPointsResults,
+    DistanceOptions::LeastStabilization);
 }
 
 } // namespace gridfem

@@ -17,11 +17,11 @@ template<class Solver>
 class SolverProblem : public Problem
 {
 public:
-  SolverProblem(
-    Properties& properties, const SurfaceOptions& defaults, SolveGiven<Solver> solveGiven)
+  SolverProblem(Properties& properties, const SurfaceOptions& defaults,
+    SolveGiven<Solver> solveGiven, double leastStabilization)
     : surface_(defaults), solveGiven_(solveGiven)
   {
-    TakeSurfaceOptions(properties, surface_);
+    TakeSurfaceOptions(properties, surface_, leastStabilization);
     TakeOptions(properties, options_);
   }
 
@@ -38,10 +38,11 @@ private:
 
 /// Makes the problem. Its options are the given properties, or else the defaults.
 template<class Solver>
-std::unique_ptr<Problem> MakeSolverProblem(
-  Properties& properties, const SurfaceOptions& defaults, SolveGiven<Solver> solveGiven)
+std::unique_ptr<Problem> MakeSolverProblem(Properties& properties, const SurfaceOptions& defaults,
+  SolveGiven<Solver> solveGiven, double leastStabilization = LeastStabilization)
 {
-  return std::make_unique<SolverProblem<Solver>>(properties, defaults, solveGiven);
+  return std::make_unique<SolverProblem<Solver>>(
+    properties, defaults, solveGiven, leastStabilization);
 }
 
 } // namespace gridfem

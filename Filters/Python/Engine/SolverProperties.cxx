@@ -21,7 +21,7 @@ void TakeProperty::operator()(EquationOptions& equation) const
     "MaximumIterations", equation.solve.maximumIterations, 1, std::numeric_limits<int>::max());
 }
 
-void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options)
+void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options, double leastStabilization)
 {
   constexpr int Largest = std::numeric_limits<int>::max();
   options.space.depth = properties.Integer("Depth", options.space.depth, 0, MaximumDepth);
@@ -35,8 +35,8 @@ void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options)
   options.choice.quadratureDegree =
     properties.Integer("QuadratureDegree", options.choice.quadratureDegree, -Largest, Largest);
   TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree before the long work
-  options.choice.normalStabilization =
-    properties.Number("NormalStabilization", options.choice.normalStabilization, 1e-14, 1.0);
+  options.choice.normalStabilization = properties.Number(
+    "NormalStabilization", options.choice.normalStabilization, leastStabilization, 1.0);
   options.parameterUnits = static_cast<ParameterUnits>(
     properties.Integer("ParameterUnits", static_cast<int>(options.parameterUnits), 0, 2));
 }

@@ -99,6 +99,7 @@ void AddFlatMap(
   data->AddArray(MakePointArray("AngleDistortion", means.col(0), VTK_DOUBLE));
   data->AddArray(MakePointArray("AreaDistortion", means.col(1), VTK_DOUBLE));
   data->AddArray(MakeIdArray("ChartId", chart));
+  output->GetPointData()->SetActiveScalars(nullptr); // ParaView prefers them to those of cells
   data->SetActiveScalars("AreaDistortion");
   AddChartNumbers(result.charts, output);
   if (!result.isCut) // a point on a cut has two places in the map
