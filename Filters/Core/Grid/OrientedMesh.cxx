@@ -73,6 +73,26 @@ TriangleMesh WithoutCopies(const TriangleMesh& mesh, const Array<Index>& pointCl
   return kept;
 }
 
+std::vector<Id> PointsWithTriangle(const TriangleMesh& mesh, const Array<Index>& pointClass)
+{
+  const std::vector<char> used = UsedPoints(mesh);
+  std::vector<Id> ofClass(mesh.points.size(), -1);
+  for (std::size_t point = 0; point < pointClass.size(); ++point)
+  {
+    if (used[point])
+    {
+      ofClass[pointClass[point]] = static_cast<Id>(point);
+    }
+  }
+  std::vector<Id> points(mesh.points.size());
+  for (std::size_t point = 0; point < points.size(); ++point)
+  {
+    const Id other = pointClass.empty() || used[point] ? -1 : ofClass[pointClass[point]];
+    points[point] = other < 0 ? static_cast<Id>(point) : other;
+  }
+  return points;
+}
+
 } // namespace
 
 OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
@@ -86,6 +106,10 @@ OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int thr
   }
   TriangleMesh turned = WithoutCopies(mesh, pointClass, threads);
   oriented.copies = static_cast<Id>(mesh.triangles.size() - turned.triangles.size());
+  if (oriented.copies > 0)
+  {
+    oriented.pointWithTriangle = PointsWithTriangle(turned, pointClass);
+  }
   const SurfaceEdges edges = FindSurfaceEdges(turned, weldCoincidentPoints, threads);
   oriented.oneSided = edges.numberOfOneSided;
   for (std::size_t t = 0; t < turned.triangles.size(); ++t)

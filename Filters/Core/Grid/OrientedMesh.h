@@ -6,6 +6,7 @@
 #include "Grid/TriangleMesh.h"
 
 #include <optional>
+#include <vector>
 
 namespace gridfem
 {
@@ -16,7 +17,10 @@ struct OrientedMesh
   std::optional<TriangleMesh> mesh; // none if the given one is oriented already
   Id turned = 0;                    // triangles that now face the other way
   Id copies = 0;                    // triangles left out: others have the same corners
-  Index oneSided = 0;               // components that cannot be oriented, such as a Möbius strip
+  /// For each point, a point at its place with a triangle, if its own triangles were left out; else
+  /// itself. Empty without copies.
+  std::vector<Id> pointWithTriangle;
+  Index oneSided = 0; // components that cannot be oriented, such as a Möbius strip
 };
 
 /// Orients a mesh. A component stays as it is if all its triangles already face the same way.

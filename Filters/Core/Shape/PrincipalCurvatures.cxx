@@ -441,6 +441,19 @@ HatFunctions TrianglesAroundPoints(const TriangleMesh& mesh, bool weldCoincident
   return NumberHatFunctions(mesh, options);
 }
 
+/// Gives points whose triangles are all copies the values of the points at their places.
+void ShareWithCopies(const std::vector<Id>& pointWithTriangle, PrincipalCurvatures& curvatures)
+{
+  for (std::size_t point = 0; point < pointWithTriangle.size(); ++point)
+  {
+    const Id from = pointWithTriangle[point];
+    curvatures.minimum[point] = curvatures.minimum[from];
+    curvatures.maximum[point] = curvatures.maximum[from];
+    curvatures.minimumDirection[point] = curvatures.minimumDirection[from];
+    curvatures.maximumDirection[point] = curvatures.maximumDirection[from];
+  }
+}
+
 } // namespace
 
 PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& given, bool weldCoincidentPoints,
@@ -459,7 +472,9 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& given, bool weldCoin
   {
     normals = SmoothNormals(*space, normals, smoothing, report.smoothing, job.Part(0.2, 0.7));
   }
-  return ComputeCurvatures(mesh, around, normals, job.Part(0.7, 1.0));
+  PrincipalCurvatures curvatures = ComputeCurvatures(mesh, around, normals, job.Part(0.7, 1.0));
+  ShareWithCopies(oriented.pointWithTriangle, curvatures);
+  return curvatures;
 }
 
 double ShapeIndex(double minimum, double maximum)

@@ -185,3 +185,17 @@ TEST(OrientedMesh, CurvaturesDoNotDependOnTheWayRoundOrOnCopies)
     }
   }
 }
+
+TEST(OrientedMesh, PointsOfCopiesHaveTheCurvaturesAtTheirPlaces)
+{
+  for (const TriangleMesh& mesh : { GeodesicSphere(3), Torus(40, 20, 1.0, 0.4) })
+  {
+    CurvatureReport report;
+    const MultiVector expected = MeanCurvatures(mesh, report);
+    const TriangleMesh twice = Join(mesh, TurnSome(mesh, 0.4, 2));
+    const MultiVector found = MeanCurvatures(twice, report);
+    ASSERT_EQ(found.rows(), 2 * expected.rows());
+    const MultiVector error = found - expected.replicate(2, 1);
+    EXPECT_LT(error.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-10);
+  }
+}

@@ -114,8 +114,8 @@ for file, filters in PAIRS:
     for filter_name in filters:
         first_apply(filter_name, f"{file}.{filter_name}", Depth=DEPTH)
         script.delete()
-choose_sources()
 choose_position()
+choose_sources()  # ParaView selects nothing after it
 script.example("path")
 script.save("example")
 script.write("first")

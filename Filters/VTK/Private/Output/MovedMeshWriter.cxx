@@ -75,7 +75,8 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
   std::vector<double> along(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    along[k] = normals[k].dot(points[k] - mesh.points[k]);
+    const std::size_t at = oriented.pointWithTriangle.empty() ? k : oriented.pointWithTriangle[k];
+    along[k] = normals[at].dot(points[k] - mesh.points[k]);
   }
   AddNumbers("NormalDisplacement", along, dataType, output);
   output->GetPointData()->SetActiveScalars("NormalDisplacement");
