@@ -821,7 +821,7 @@ void Turn(std::vector<double>& vectors, const std::vector<double>& expected)
 /// Whether an array has numbers of parts, which are all 0 if there is one part.
 bool HasNumbersOfParts(const std::string& name)
 {
-  return name == "ChartId";
+  return name == "cell ChartId";
 }
 
 /// Compares arrays, relative to their largest values.

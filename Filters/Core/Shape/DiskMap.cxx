@@ -59,10 +59,13 @@ void RaiseWeights(double least, Eigen::SparseMatrix<double>& stiffness)
 }
 
 template<class Factor>
-std::unique_ptr<Factor> Factored(const Eigen::SparseMatrix<double>& matrix)
+std::unique_ptr<Factor> Factored(const Eigen::SparseMatrix<double>& matrix, const Job& job)
 {
   auto factor = std::make_unique<Factor>();
-  factor->compute(matrix);
+  factor->analyzePattern(matrix);
+  job.Check(0.3);
+  factor->factorize(matrix);
+  job.Check(0.9);
   if (factor->info() != Eigen::Success)
   {
     throw InvalidInput("The system of the flat map has no solution. Triangles of very different "
@@ -182,7 +185,7 @@ DiskMap::DiskMap(const Disk& disk)
 }
 
 /// Solves the Laplace equation with given values on the boundary.
-MultiVector DiskMap::Extend(const Eigen::MatrixXd& onBoundary)
+MultiVector DiskMap::Extend(const Eigen::MatrixXd& onBoundary, const Job& job)
 {
   if (!ofInner_ && inner_ > 0)
   {
@@ -207,7 +210,7 @@ MultiVector DiskMap::Extend(const Eigen::MatrixXd& onBoundary)
     matrix.setFromTriplets(among.begin(), among.end());
     toBoundary_.resize(inner_, static_cast<Index>(disk_.loop.size()));
     toBoundary_.setFromTriplets(across.begin(), across.end());
-    ofInner_ = Factored<Factor>(matrix);
+    ofInner_ = Factored<Factor>(matrix, job);
   }
   Eigen::MatrixXd inside;
   if (inner_ > 0)
@@ -225,12 +228,12 @@ MultiVector DiskMap::Extend(const Eigen::MatrixXd& onBoundary)
 }
 
 /// Solves the system of all vertices. Vertex 0 gets 0.
-MultiVector DiskMap::SolvePinned(const Eigen::MatrixXd& b)
+MultiVector DiskMap::SolvePinned(const Eigen::MatrixXd& b, const Job& job)
 {
   const Id others = stiffness_.rows() - 1;
   if (!pinned_)
   {
-    pinned_ = Factored<Factor>(Matrix(stiffness_.bottomRightCorner(others, others)));
+    pinned_ = Factored<Factor>(Matrix(stiffness_.bottomRightCorner(others, others)), job);
   }
   MultiVector x = MultiVector::Zero(b.rows(), b.cols());
   x.bottomRows(others) = pinned_->solve(Eigen::MatrixXd(b.bottomRows(others)));
@@ -239,7 +242,7 @@ MultiVector DiskMap::SolvePinned(const Eigen::MatrixXd& b)
 
 /// The boundary in the plane if the scale stays along it. Its exterior angles follow from the scale
 /// inside, which makes the disk flat.
-Eigen::MatrixXd DiskMap::LayOutBoundary()
+Eigen::MatrixXd DiskMap::LayOutBoundary(const Job& job)
 {
   Eigen::MatrixXd missing = Eigen::MatrixXd::Constant(stiffness_.rows(), 1, FullTurn);
   for (const Index vertex : disk_.loop)
@@ -257,7 +260,7 @@ Eigen::MatrixXd DiskMap::LayOutBoundary()
   MultiVector scale = MultiVector::Zero(stiffness_.rows(), 1); // logarithm
   if (inner_ > 0)
   {
-    this->Extend(Eigen::MatrixXd::Zero(edges, 1)); // factors the matrix
+    this->Extend(Eigen::MatrixXd::Zero(edges, 1), job); // factors the matrix
     Eigen::VectorXd ofInner(inner_);
     for (Index vertex = 0; vertex < stiffness_.rows(); ++vertex)
     {
@@ -295,10 +298,10 @@ Eigen::MatrixXd DiskMap::LayOutBoundary()
 MultiVector DiskMap::Conformal(const Job& job)
 {
   job.Check(0.1);
-  const Eigen::MatrixXd boundary = this->LayOutBoundary();
-  job.Check(0.5);
+  const Eigen::MatrixXd boundary = this->LayOutBoundary(job.Part(0.1, 0.45));
+  job.Check(0.45);
   const MultiVector extended = this->Extend(boundary);
-  job.Check(0.6);
+  job.Check(0.5);
   const auto edges = static_cast<Index>(disk_.loop.size());
   Eigen::MatrixXd flux = Eigen::MatrixXd::Zero(stiffness_.rows(), 2); // of the conjugates
   for (Index k = 0; k < edges; ++k)
@@ -308,7 +311,7 @@ MultiVector DiskMap::Conformal(const Job& job)
     flux(disk_.loop[k], 0) += 0.5 * (boundary(after, 1) - boundary(before, 1));
     flux(disk_.loop[k], 1) += 0.5 * (boundary(before, 0) - boundary(after, 0));
   }
-  MultiVector plane = 0.5 * (extended + this->SolvePinned(flux));
+  MultiVector plane = 0.5 * (extended + this->SolvePinned(flux, job.Part(0.5, 1.0)));
   RequireFinite(plane);
   job.Check(1.0);
   return plane;
@@ -337,7 +340,7 @@ MultiVector DiskMap::ToCircle(const Job& job)
     const double angle = FullTurn * length[k] / length.back();
     circle.row(k) << std::cos(angle), std::sin(angle);
   }
-  MultiVector plane = this->Extend(circle);
+  MultiVector plane = this->Extend(circle, job.Part(0.0, 0.5));
   job.Check(0.5);
   if (this->HasTurned(plane))
   {
@@ -345,7 +348,7 @@ MultiVector DiskMap::ToCircle(const Job& job)
     const Matrix cotangents = stiffness_;
     RaiseWeights(LeastWeight, stiffness_);
     ofInner_.reset();
-    plane = this->Extend(circle);
+    plane = this->Extend(circle, job.Part(0.5, 1.0));
     stiffness_ = cotangents;
     ofInner_.reset();
   }

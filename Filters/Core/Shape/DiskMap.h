@@ -45,9 +45,9 @@ private:
   using Matrix = Eigen::SparseMatrix<double>;
   using Factor = Eigen::SimplicialLDLT<Matrix>;
 
-  MultiVector Extend(const Eigen::MatrixXd& onBoundary);
-  MultiVector SolvePinned(const Eigen::MatrixXd& b);
-  Eigen::MatrixXd LayOutBoundary();
+  MultiVector Extend(const Eigen::MatrixXd& onBoundary, const Job& job = {});
+  MultiVector SolvePinned(const Eigen::MatrixXd& b, const Job& job = {});
+  Eigen::MatrixXd LayOutBoundary(const Job& job);
   bool HasTurned(const MultiVector& plane) const;
 
   const Disk& disk_;

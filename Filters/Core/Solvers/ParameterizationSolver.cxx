@@ -172,8 +172,10 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, con
   double done = 0.0;
   for (const Disk& disk : disks_)
   {
-    const double next = done + static_cast<double>(disk.triangles.size()) /
-                                 static_cast<double>(mesh.triangles.size());
+    constexpr double ShareOfMaps = 0.8; // of the time
+    const double share = static_cast<double>(disk.triangles.size()) /
+                         static_cast<double>(mesh.triangles.size()); // with those of filled holes
+    const double next = std::min(done + ShareOfMaps * share, ShareOfMaps);
     DiskMap map(disk);
     planes.push_back(FlattenDisk(map, disk, kind, job.Part(done, next)));
     done = next;
@@ -196,6 +198,7 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, con
     result_.charts.push_back(chart);
     result_.isCut = result_.isCut || disk.cutEdges > 0;
   }
+  job.Check(0.85);
   ArrangeCharts(planes);
   flat.points.resize(static_cast<Id>(flat.pointOf.size()), 2);
   for (std::size_t k = 0; k < planes.size(); ++k)
@@ -208,6 +211,7 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, con
       }
     }
   }
+  job.Check(0.9);
   SortLikeMesh(flat);
   flat.texture = flat.points / flat.points.maxCoeff();
   result_.warnings = WarningsOfTurned(result_.charts, static_cast<Id>(flat.triangles.size()));
