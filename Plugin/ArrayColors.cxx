@@ -53,6 +53,7 @@ struct Choice
   int port = 0;
   Colors colors = Colors::Diverging;
   bool stepsApart = false;
+  double end = 0.0; // of a fixed range around 0; 0: the range follows the data
 
   bool Fits(const std::string& name) const
   {
@@ -78,16 +79,20 @@ bool UserHasColors(const std::string& array)
 }
 
 /// The range that a color map should have for an array. Unknown for several components.
-Range WantedRange(vtkPVArrayInformation* array, Colors colors)
+Range WantedRange(vtkPVArrayInformation* array, const Choice& choice)
 {
+  if (choice.end > 0.0)
+  {
+    return { -choice.end, choice.end };
+  }
   Range range;
-  if (array->GetNumberOfComponents() == 1 && colors != Colors::Categorical)
+  if (array->GetNumberOfComponents() == 1 && choice.colors != Colors::Categorical)
   {
     double ends[2];
     array->GetComponentFiniteRange(0, ends);
     range = { ends[0], ends[1] };
   }
-  if (range.IsKnown() && (colors == Colors::Diverging || range.low < 0.0))
+  if (range.IsKnown() && (choice.colors == Colors::Diverging || range.low < 0.0))
   {
     const double largest = std::max(std::abs(range.low), std::abs(range.high));
     range = largest > 0.0 ? Range{ -largest, largest } : Range();
@@ -192,7 +197,7 @@ public:
     {
       vtkSMProxy* map = filter_->GetSessionProxyManager()->GetProxy(
         "lookup_tables", (array->GetName() + std::string(MapEnding)).c_str());
-      const Range wanted = WantedRange(array, choice_.colors);
+      const Range wanted = WantedRange(array, choice_);
       if (map && wanted.IsKnown() && HasOurRange(map))
       {
         SetRange(map, wanted, grows || IsUsedElsewhere(map, filter_));
@@ -215,10 +220,16 @@ public:
       if (name == array->GetName() + std::string(MapEnding) && !UserHasColors(array->GetName()))
       {
         SetColors(map, array, choice_.colors);
-        const Range wanted = WantedRange(array, choice_.colors);
+        const Range wanted = WantedRange(array, choice_);
         if (wanted.IsKnown())
         {
           SetRange(map, wanted, false);
+        }
+        if (choice_.end > 0.0)
+        {
+          vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode")
+            .Set(vtkSMTransferFunctionManager::NEVER);
+          map->UpdateVTKObjects();
         }
       }
     }
@@ -270,6 +281,7 @@ public:
     const std::string colors = xml->GetAttributeOrEmpty("colors");
     choice.array = xml->GetAttributeOrEmpty("array");
     xml->GetScalarAttribute("port", &choice.port);
+    xml->GetScalarAttribute("end", &choice.end);
     choice.stepsApart = xml->GetAttributeOrEmpty("steps") == std::string("apart");
     choice.colors = colors == "sequential"    ? Colors::Sequential
                     : colors == "stripes"     ? Colors::Stripes

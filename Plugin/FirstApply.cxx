@@ -164,6 +164,30 @@ public:
 
 vtkStandardNewMacro(vtkSMDrawsTubes);
 
+class vtkSMFitsCameras : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMFitsCameras* New();
+  vtkTypeMacro(vtkSMFitsCameras, vtkSMProxyInitializationHelper);
+
+  /// The data of the port lie beside the surface.
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    int port = 1;
+    xml->GetScalarAttribute("port", &port);
+    WhenFirstShown(proxy, port,
+      [](vtkSMProxy*, vtkSMSourceProxy* filter)
+      {
+        if (HasWindow())
+        {
+          gridfem::FitCameras(filter);
+        }
+      });
+  }
+};
+
+vtkStandardNewMacro(vtkSMFitsCameras);
+
 /// Whether the values of an array are themselves colors.
 /// @param direct  "bytes", or "fractions": numbers from 0 to 1 as well
 bool AreColors(vtkPVArrayInformation* array, const std::string& direct)
@@ -363,6 +387,7 @@ void AddToInterpreter(vtkClientServerInterpreter* interpreter)
   interpreter->AddNewInstanceFunction("vtkSMOpensBeside", NewHelper<vtkSMOpensBeside>);
   interpreter->AddNewInstanceFunction("vtkSMShowsLastStep", NewHelper<vtkSMShowsLastStep>);
   interpreter->AddNewInstanceFunction("vtkSMDrawsTubes", NewHelper<vtkSMDrawsTubes>);
+  interpreter->AddNewInstanceFunction("vtkSMFitsCameras", NewHelper<vtkSMFitsCameras>);
   interpreter->AddNewInstanceFunction("vtkSMColorsLater", NewHelper<vtkSMColorsLater>);
   interpreter->AddNewInstanceFunction("vtkSMAxisTitles", NewHelper<vtkSMAxisTitles>);
 }

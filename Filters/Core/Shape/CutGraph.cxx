@@ -13,6 +13,9 @@ namespace gridfem
 namespace
 {
 
+/// Fewer leave thin parts of a closed surface thousands of times smaller than the rest of the map.
+constexpr int LeastCutsOfClosed = 8;
+
 constexpr double NotReached = std::numeric_limits<double>::infinity();
 
 /// Vertices and boundary loops as nodes, with the edges between them.
@@ -81,7 +84,8 @@ public:
         cuts_.push_back(h);
       }
     }
-    const int extra = loops_.empty() && cuts_.empty() ? std::max(extraCuts, 1) : extraCuts;
+    const int extra =
+      loops_.empty() && cuts_.empty() ? std::max(extraCuts, LeastCutsOfClosed) : extraCuts;
     for (int k = 0; k < extra; ++k)
     {
       this->CutFrom(this->MeasureFromCuts());

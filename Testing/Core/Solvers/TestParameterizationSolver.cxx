@@ -397,10 +397,10 @@ TEST(ParameterizationSolver, MoreCutsDistortLess)
 {
   const TriangleMesh mesh = GeodesicSphere(12);
   Solver::Options more = Type(FlatMap::Isometric);
-  const double one = Flatten(mesh, more).charts.front().area;
-  more.extraCuts = 6;
+  const double eight = Flatten(mesh, more).charts.front().area; // a closed surface has so many
+  more.extraCuts = 32;
   const Solver::Result result = Flatten(mesh, more);
-  EXPECT_LT(result.charts.front().area, 0.8 * one);
+  EXPECT_LT(result.charts.front().area, 0.8 * eight);
   EXPECT_EQ(EulerOf(result.flat), 1);
 }
 
