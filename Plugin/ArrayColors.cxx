@@ -53,7 +53,7 @@ struct Choice
   int port = 0;
   Colors colors = Colors::Diverging;
   bool stepsApart = false;
-  double end = 0.0; // of a fixed range around 0; 0: the range follows the data
+  double limit = 0.0; // values farther from 0 have the last color; 0: no limit
 
   bool Fits(const std::string& name) const
   {
@@ -81,10 +81,6 @@ bool UserHasColors(const std::string& array)
 /// The range that a color map should have for an array. Unknown for several components.
 Range WantedRange(vtkPVArrayInformation* array, const Choice& choice)
 {
-  if (choice.end > 0.0)
-  {
-    return { -choice.end, choice.end };
-  }
   Range range;
   if (array->GetNumberOfComponents() == 1 && choice.colors != Colors::Categorical)
   {
@@ -94,7 +90,8 @@ Range WantedRange(vtkPVArrayInformation* array, const Choice& choice)
   }
   if (range.IsKnown() && (choice.colors == Colors::Diverging || range.low < 0.0))
   {
-    const double largest = std::max(std::abs(range.low), std::abs(range.high));
+    double largest = std::max(std::abs(range.low), std::abs(range.high));
+    largest = choice.limit > 0.0 ? std::min(largest, choice.limit) : largest;
     range = largest > 0.0 ? Range{ -largest, largest } : Range();
   }
   return range;
@@ -116,15 +113,16 @@ void SetRange(vtkSMProxy* map, const Range& wanted, bool grows)
   }
 }
 
-/// Whether the range of a map is as this class has set it, and may change.
-bool HasOurRange(vtkSMProxy* map)
+/// Whether the range of a map is as this class has set it, and may change. With a limit, ParaView
+/// may not change it, which would extend it to all values.
+bool HasOurRange(vtkSMProxy* map, bool hasLimit)
 {
   double range[2];
   double noted[2];
   const char* note = map->GetAnnotation(RangeNote);
   if (!note || !vtkSMTransferFunctionProxy::GetRange(map, range) ||
-      vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").GetAsInt() ==
-        vtkSMTransferFunctionManager::NEVER)
+      (!hasLimit && vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode").GetAsInt() ==
+                      vtkSMTransferFunctionManager::NEVER))
   {
     return false;
   }
@@ -198,7 +196,7 @@ public:
       vtkSMProxy* map = filter_->GetSessionProxyManager()->GetProxy(
         "lookup_tables", (array->GetName() + std::string(MapEnding)).c_str());
       const Range wanted = WantedRange(array, choice_);
-      if (map && wanted.IsKnown() && HasOurRange(map))
+      if (map && wanted.IsKnown() && HasOurRange(map, choice_.limit > 0.0))
       {
         SetRange(map, wanted, grows || IsUsedElsewhere(map, filter_));
       }
@@ -225,7 +223,7 @@ public:
         {
           SetRange(map, wanted, false);
         }
-        if (choice_.end > 0.0)
+        if (choice_.limit > 0.0)
         {
           vtkSMPropertyHelper(map, "AutomaticRescaleRangeMode")
             .Set(vtkSMTransferFunctionManager::NEVER);
@@ -281,7 +279,7 @@ public:
     const std::string colors = xml->GetAttributeOrEmpty("colors");
     choice.array = xml->GetAttributeOrEmpty("array");
     xml->GetScalarAttribute("port", &choice.port);
-    xml->GetScalarAttribute("end", &choice.end);
+    xml->GetScalarAttribute("limit", &choice.limit);
     choice.stepsApart = xml->GetAttributeOrEmpty("steps") == std::string("apart");
     choice.colors = colors == "sequential"    ? Colors::Sequential
                     : colors == "stripes"     ? Colors::Stripes

@@ -11,6 +11,7 @@
 //   sequential   from dark to light; diverging if some values are below 0
 //   stripes      the same in stripes, for distances
 //   categorical  one color for each whole number: pale for 0 to 7, dark for 8 to 15
+// With limit="4", the range never exceeds -4 to 4, so that a few extremes do not pale the rest.
 // An array with several components is only given its colors, for its magnitude.
 //
 // ParaView has one color map for all arrays of a name. This class gives the map its colors when the

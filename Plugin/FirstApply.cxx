@@ -53,6 +53,14 @@ void ActivateFirstPort(vtkSMSourceProxy* filter)
   }
 }
 
+/// The port that a hint names.
+int PortOf(vtkPVXMLElement* hint)
+{
+  int port = 1;
+  hint->GetScalarAttribute("port", &port);
+  return port;
+}
+
 class vtkSMOpensBeside : public vtkSMProxyInitializationHelper
 {
 public:
@@ -63,8 +71,7 @@ public:
   /// activated later. So this waits for the first data of the representation.
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
-    int port = 1;
-    xml->GetScalarAttribute("port", &port);
+    const int port = PortOf(xml);
     WhenFirstShown(proxy, port,
       [port](vtkSMProxy* chart, vtkSMSourceProxy* filter) { ReturnFrom(chart, filter, port); });
   }
@@ -142,9 +149,7 @@ public:
   /// Lines as wide as a pixel vanish in the surface that they lie in.
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
-    int port = 1;
-    xml->GetScalarAttribute("port", &port);
-    WhenFirstShown(proxy, port,
+    WhenFirstShown(proxy, PortOf(xml),
       [](vtkSMProxy* lines, vtkSMSourceProxy*)
       {
         constexpr double Width = 6.0; // pixels
@@ -173,15 +178,11 @@ public:
   /// The data of the port lie beside the surface.
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
-    int port = 1;
-    xml->GetScalarAttribute("port", &port);
-    WhenFirstShown(proxy, port,
+    WhenFirstShown(proxy, PortOf(xml),
       [](vtkSMProxy*, vtkSMSourceProxy* filter)
       {
-        if (HasWindow())
-        {
-          gridfem::FitCameras(filter);
-        }
+        gridfem::FitCameras(filter);
+        gridfem::FitCamerasWithout(filter);
       });
   }
 };

@@ -5,6 +5,7 @@
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
 //     <InitializationHelper class="vtkSMShowsLastStep" />
 //     <InitializationHelper class="vtkSMDrawsTubes" port="1" />
+//     <InitializationHelper class="vtkSMFitsCameras" port="1" />
 //     <InitializationHelper class="vtkSMColorsLater" array="StitchedColors" direct="fractions" />
 //   </Hints>
 //
@@ -15,6 +16,8 @@
 //                       source has time steps that would change with it
 //   vtkSMDrawsTubes     the first Apply shows the lines of this port as tubes, and port 0 half
 //                       transparent, so that lines on its far side are seen as well
+//   vtkSMFitsCameras    the first Apply fits the camera to port 0 and to this port, which lies
+//                       beside it. The camera is fitted again when the filter is deleted
 //   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it, or has lost the array
 //                       that colored it. ParaView looks only once, when it first shows a filter,
 //                       and the user may choose arrays later. The user's own coloring stays. With

@@ -59,44 +59,68 @@ void CloseView(vtkSMViewProxy* view)
   }
 }
 
+void FitWhenDrawn(vtkSMViewProxy* view)
+{
+  auto* drawn = vtkSMRenderViewProxy::SafeDownCast(view);
+  if (!drawn)
+  {
+    return;
+  }
+  gridfem::Watch(drawn, vtkCommand::StartEvent,
+    [drawn, size = SizeOf(drawn), draws = 0](void*) mutable
+    {
+      constexpr int MostDraws = 3; // the window gives views their sizes after the first drawing
+      drawn->ResetCamera();
+      return ++draws == MostDraws || SizeOf(drawn) != size;
+    });
+}
+
+/// Calls a function for each view that shows a port of a filter, when the filter is deleted. Views
+/// that are closed before do not count.
+void WhenDeleted(vtkSMSourceProxy* filter, int port, void (*act)(vtkSMViewProxy* view))
+{
+  const vtkWeakPointer<vtkSMSourceProxy> kept = filter;
+  for (const auto& [view, shown] : gridfem::ViewsOf(filter, port))
+  {
+    const vtkWeakPointer<vtkSMViewProxy> left = view;
+    gridfem::Watch(filter->GetSessionProxyManager(), vtkCommand::UnRegisterEvent,
+      [kept, left, act](void* data)
+      {
+        const auto* gone = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
+        const bool isGone =
+          !kept || (gone->Proxy == kept && gone->GroupName == std::string("sources"));
+        if (isGone && left)
+        {
+          act(left);
+        }
+        return isGone || !left;
+      });
+  }
+}
+
 } // namespace
 
 void gridfem::FitCameras(vtkSMSourceProxy* filter)
 {
   for (const auto& [view, shown] : ViewsOf(filter, 0))
   {
-    auto* drawn = vtkSMRenderViewProxy::SafeDownCast(view);
-    if (!drawn)
-    {
-      continue;
-    }
-    Watch(drawn, vtkCommand::StartEvent,
-      [drawn, size = SizeOf(drawn), draws = 0](void*) mutable
-      {
-        constexpr int MostDraws = 3; // the window gives views their sizes after the first drawing
-        drawn->ResetCamera();
-        return ++draws == MostDraws || SizeOf(drawn) != size;
-      });
+    FitWhenDrawn(view);
   }
+}
+
+void gridfem::FitCamerasWithout(vtkSMSourceProxy* filter)
+{
+  WhenDeleted(filter, 0, FitWhenDrawn);
 }
 
 void gridfem::CloseWithFilter(vtkSMSourceProxy* filter, int port)
 {
-  const vtkWeakPointer<vtkSMSourceProxy> kept = filter;
-  for (const auto& [view, shown] : ViewsOf(filter, port))
-  {
-    const vtkWeakPointer<vtkSMViewProxy> chart = view;
-    Watch(filter->GetSessionProxyManager(), vtkCommand::UnRegisterEvent,
-      [kept, chart](void* data)
+  WhenDeleted(filter, port,
+    [](vtkSMViewProxy* chart)
+    {
+      if (ShowsNothing(chart))
       {
-        const auto* gone = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
-        const bool isGone =
-          !kept || (gone->Proxy == kept && gone->GroupName == std::string("sources"));
-        if (isGone && chart && ShowsNothing(chart))
-        {
-          CloseView(chart);
-        }
-        return isGone || !chart;
-      });
-  }
+        CloseView(chart);
+      }
+    });
 }

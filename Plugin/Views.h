@@ -13,6 +13,9 @@ namespace gridfem
 /// that a chart has made smaller is fitted at its new size.
 void FitCameras(vtkSMSourceProxy* filter);
 
+/// Fits the camera of these views again when the filter is deleted.
+void FitCamerasWithout(vtkSMSourceProxy* filter);
+
 /// Closes the view that shows a representation of a port when the filter is deleted, if nothing
 /// else is in the view.
 void CloseWithFilter(vtkSMSourceProxy* filter, int port);
