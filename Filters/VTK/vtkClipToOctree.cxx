@@ -3,15 +3,14 @@
 #include "Output/ClippedArrays.h"
 #include "Output/ClippedSurface.h"
 #include "Output/OctreeOutput.h"
+#include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
 #include "Algebra/DistributedRows.h"
 
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -61,8 +60,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   surface.Together(
     [&]
     {
-      output->GetPointData()->SetActiveScalars(nullptr); // ParaView prefers them to those of cells
-      output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
+      gridfem::ColorByCells(output, gridfem::OctreeCellColorName);
       if (this->WantsQuadraturePoints(triangles))
       {
         gridfem::WriteQuadraturePoints(clip.Source(), clip.Clipped(), rule, clip.Precision(),

@@ -2,13 +2,12 @@
 
 #include "Output/ClippedArrays.h"
 #include "Output/ClippedSurface.h"
+#include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -42,12 +41,7 @@ void vtkConnectivityAwareBasis::Compute(
   clip.UpdateBasis(this->KeepsStages(), progress.Part(0.0, 0.8));
   progress.Check(0.8);
   clip.WriteMesh(output);
-  surface.Together(
-    [&]
-    {
-      output->GetPointData()->SetActiveScalars(nullptr); // ParaView prefers them to those of cells
-      output->GetCellData()->SetActiveScalars(gridfem::PatchColorName);
-    });
+  surface.Together([&] { gridfem::ColorByCells(output, gridfem::PatchColorName); });
   if (this->BasisId >= 0)
   {
     clip.AddBasisFunction(this->Level, this->BasisId, output);

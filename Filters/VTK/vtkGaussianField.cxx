@@ -39,7 +39,7 @@ struct vtkGaussianField::Internals
 {
   gridfem::GaussianFieldSolver Solver;
   const gridfem::GaussianFieldSolver::Result* Result = nullptr; // of this run
-  std::string FarObservations;                                  // a warning of this run
+  std::vector<std::string> FarObservations;                     // warnings of this run
 };
 
 vtkGaussianField::vtkGaussianField()
@@ -116,10 +116,7 @@ void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVect
   output->ShallowCopy(input);
   this->WriteResult(output);
   gridfem::AddReport(result.report, output);
-  if (!this->Data->FarObservations.empty())
-  {
-    this->Warn({ this->Data->FarObservations });
-  }
+  this->Warn(this->Data->FarObservations);
   this->Warn(result.warnings);
 }
 

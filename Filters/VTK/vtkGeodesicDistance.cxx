@@ -25,7 +25,7 @@ struct vtkGeodesicDistance::Internals
   std::vector<gridfem::Id> SourceIds;
   gridfem::DistanceSolver Solver;
   gridfem::DistanceSolver::Input Input; // of this run
-  std::string FarSources;               // a warning of this run
+  std::vector<std::string> FarSources;  // warnings of this run
 };
 
 vtkGeodesicDistance::vtkGeodesicDistance()
@@ -174,10 +174,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   const gridfem::DistanceSolver::Result& result =
     data.Solver.Update(surface, data.Input, options, { 0, state.GetProgress() });
   surface.Together([&] { this->Write(input, vtkPolyData::GetData(outputs, 0)); });
-  if (!data.FarSources.empty())
-  {
-    this->Warn({ data.FarSources });
-  }
+  this->Warn(data.FarSources);
   this->Warn(result.warnings);
 }
 

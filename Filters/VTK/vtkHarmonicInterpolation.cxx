@@ -62,7 +62,7 @@ struct vtkHarmonicInterpolation::Internals
 {
   gridfem::InputArray Array; // where the values come from; none for the table
   std::vector<std::array<double, 2>> Table;
-  std::string FarValues; // a warning of this run
+  std::vector<std::string> FarValues; // warnings of this run
   gridfem::InterpolationSolver Solver;
 };
 
@@ -165,10 +165,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);
   gridfem::AddFieldNumber(output, "Misfit", result.misfit);
-  if (!data.FarValues.empty())
-  {
-    this->Warn({ data.FarValues });
-  }
+  this->Warn(data.FarValues);
   this->Warn(result.warnings);
 }
 

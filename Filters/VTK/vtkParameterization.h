@@ -73,7 +73,7 @@ public:
   ///@{
   /**
    * The number of cuts toward the points farthest from all cuts and boundaries. They lower the
-   * distortion of areas. A closed surface without handles has at least one. 0..100, default 0.
+   * distortion of areas. A closed surface without handles has at least eight. 0..100, default 0.
    */
   vtkSetInRangeMacro(ExtraCuts, int, 0, 100);
   vtkGetMacro(ExtraCuts, int);

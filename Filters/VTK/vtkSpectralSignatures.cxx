@@ -141,17 +141,14 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   {
     vtkWarningMacro("The input Sources has no points. It adds no sources to the distances.");
   }
-  std::string farSources;
+  std::vector<std::string> farSources;
   surface.Together(
     [&]
     {
       data.Given.sources =
         gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
     });
-  if (!farSources.empty())
-  {
-    this->Warn({ farSources });
-  }
+  this->Warn(farSources);
   this->FindValues();
 
   gridfem::SignatureSolver::Options options;

@@ -21,6 +21,11 @@ struct OrientedMesh
   /// itself. Empty without copies.
   std::vector<Id> pointWithTriangle;
   Index oneSided = 0; // components that cannot be oriented, such as a Möbius strip
+
+  Id PointWithTriangle(Id point) const
+  {
+    return pointWithTriangle.empty() ? point : pointWithTriangle[point];
+  }
 };
 
 /// Orients a mesh. A component stays as it is if all its triangles already face the same way.

@@ -17,7 +17,7 @@ constexpr double FullTurn = 2.0 * 3.14159265358979323846;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Eigen::SparseMatrix<double> CotangentStiffness(
-  const Disk& disk, const std::vector<TriangleSides>& sides)
+  const Disk& disk, const std::vector<SideLengths>& sides)
 {
   Triplets entries;
   entries.reserve(12 * disk.triangles.size());
@@ -106,7 +106,7 @@ struct Rigid
 };
 
 Rigid FitRotations(
-  const Disk& disk, const std::vector<TriangleSides>& sides, const MultiVector& plane)
+  const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane)
 {
   Rigid rigid;
   rigid.load.setZero(plane.rows(), 2);

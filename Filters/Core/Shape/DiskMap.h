@@ -39,7 +39,7 @@ public:
   /// @param plane  the map at the start
   MultiVector Isometric(MultiVector plane, const Job& job);
 
-  const std::vector<TriangleSides>& Sides() const { return sides_; }
+  const std::vector<SideLengths>& Sides() const { return sides_; }
 
 private:
   using Matrix = Eigen::SparseMatrix<double>;
@@ -51,7 +51,7 @@ private:
   bool HasTurned(const MultiVector& plane) const;
 
   const Disk& disk_;
-  std::vector<TriangleSides> sides_;
+  std::vector<SideLengths> sides_;
   std::vector<Index> row_; // of each vertex among the inner ones; ~place on the loop
   Index inner_ = 0;        // number of inner vertices
   Matrix stiffness_;       // of all vertices

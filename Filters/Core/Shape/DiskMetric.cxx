@@ -32,7 +32,7 @@ double TwiceAreaInPlane(const std::array<Index, 3>& corner, const MultiVector& p
 
 } // namespace
 
-double TriangleSides::Area() const
+double SideLengths::Area() const
 {
   std::array<double, 3> side = length;
   std::sort(side.begin(), side.end());
@@ -41,7 +41,7 @@ double TriangleSides::Area() const
   return 0.25 * std::sqrt(std::max(product, 0.0));
 }
 
-double TriangleSides::AngleAt(int corner) const
+double SideLengths::AngleAt(int corner) const
 {
   const double a = length[(corner + 1) % 3];
   const double b = length[corner];
@@ -49,7 +49,7 @@ double TriangleSides::AngleAt(int corner) const
   return std::atan2(4.0 * this->Area(), b * b + c * c - a * a);
 }
 
-double TriangleSides::CotangentAt(int corner) const
+double SideLengths::CotangentAt(int corner) const
 {
   const double a = length[(corner + 1) % 3];
   const double b = length[corner];
@@ -57,21 +57,21 @@ double TriangleSides::CotangentAt(int corner) const
   return (b * b + c * c - a * a) / (4.0 * this->Area());
 }
 
-std::array<Vec2, 3> TriangleSides::InPlane() const
+std::array<Vec2, 3> SideLengths::InPlane() const
 {
   const double b = length[0];
   const double x = (b * b + length[2] * length[2] - length[1] * length[1]) / (2.0 * b);
   return { Vec2(0.0, 0.0), Vec2(b, 0.0), Vec2(x, 2.0 * this->Area() / b) };
 }
 
-std::vector<TriangleSides> MeasureTriangles(const Disk& disk)
+std::vector<SideLengths> MeasureTriangles(const Disk& disk)
 {
-  std::vector<TriangleSides> sides;
+  std::vector<SideLengths> sides;
   double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& corner : disk.triangles)
   {
-    TriangleSides triangle{};
+    SideLengths triangle{};
     for (int k = 0; k < 3; ++k)
     {
       triangle.length[k] = (disk.points[corner[(k + 1) % 3]] - disk.points[corner[k]]).norm();
@@ -85,7 +85,7 @@ std::vector<TriangleSides> MeasureTriangles(const Disk& disk)
   const double wanted = LeastSlack * sum / (3.0 * static_cast<double>(sides.size()));
   if (least < wanted)
   {
-    for (TriangleSides& triangle : sides)
+    for (SideLengths& triangle : sides)
     {
       for (double& length : triangle.length)
       {
@@ -97,7 +97,7 @@ std::vector<TriangleSides> MeasureTriangles(const Disk& disk)
 }
 
 std::vector<ChartDistortion> MeasureDistortion(
-  const Disk& disk, const std::vector<TriangleSides>& sides, const MultiVector& plane)
+  const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane)
 {
   std::vector<ChartDistortion> distortions;
   for (std::size_t t = 0; t < disk.triangles.size(); ++t)

@@ -11,7 +11,7 @@ namespace gridfem
 using Vec2 = Eigen::Vector2d;
 
 /// A triangle by the lengths of its sides. Side k runs from corner k to the next corner.
-struct TriangleSides
+struct SideLengths
 {
   std::array<double, 3> length;
 
@@ -25,7 +25,7 @@ struct TriangleSides
 
 /// Returns the sides of all triangles. If a triangle has no area, all sides become longer by the
 /// same tiny length that gives it one [Sharp and Crane 2020, mollification].
-std::vector<TriangleSides> MeasureTriangles(const Disk& disk);
+std::vector<SideLengths> MeasureTriangles(const Disk& disk);
 
 /// How a map to the plane distorts a triangle.
 struct ChartDistortion
@@ -39,7 +39,7 @@ struct ChartDistortion
 
 /// @param plane  a row of two coordinates for each vertex
 std::vector<ChartDistortion> MeasureDistortion(
-  const Disk& disk, const std::vector<TriangleSides>& sides, const MultiVector& plane);
+  const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane);
 
 /// Total area of the triangles in the plane, negative if turned over. Filled holes do not count.
 double AreaInPlane(const Disk& disk, const MultiVector& plane);

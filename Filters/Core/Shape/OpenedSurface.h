@@ -44,7 +44,7 @@ struct OpeningOptions
   /// Cuts connect longer ones.
   double holeSize = 0.5;
   /// Cuts that lead to the points farthest from all cuts. A closed surface without handles has at
-  /// least one.
+  /// least eight.
   int extraCuts = 0;
   bool weldCoincidentPoints = true;
 };

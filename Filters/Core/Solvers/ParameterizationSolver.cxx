@@ -18,7 +18,7 @@ using Chart = ParameterizationSolver::Chart;
 using Flat = ParameterizationSolver::Flat;
 
 /// Scales a map so that its area is that of the surface.
-void KeepArea(const Disk& disk, const std::vector<TriangleSides>& sides, MultiVector& plane)
+void KeepArea(const Disk& disk, const std::vector<SideLengths>& sides, MultiVector& plane)
 {
   double area = 0.0;
   for (std::size_t t = 0; t < sides.size(); ++t)
@@ -61,8 +61,8 @@ void NoteVertices(
 }
 
 /// Appends the triangles of a chart, and measures it.
-void AddTriangles(const Disk& disk, const std::vector<TriangleSides>& sides,
-  const MultiVector& plane, const std::vector<Id>& vertexOf, Index number, Chart& chart, Flat& flat)
+void AddTriangles(const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane,
+  const std::vector<Id>& vertexOf, Index number, Chart& chart, Flat& flat)
 {
   const std::vector<ChartDistortion> distortions = MeasureDistortion(disk, sides, plane);
   double total = 0.0;

@@ -45,14 +45,12 @@ void AnnounceCost(const Surface& surface, const SpectrumSolver::Input& input, Id
   {
     return;
   }
+  const auto [unit, name] = seconds < Minute ? std::make_pair(1.0, " seconds")
+                            : seconds < Hour ? std::make_pair(Minute, " minutes")
+                                             : std::make_pair(Hour, " hours");
   std::ostringstream text;
   text << std::setprecision(2) << modes << " modes of " << functions << " functions: about "
-       << (seconds < Minute  ? seconds
-            : seconds < Hour ? seconds / Minute
-                             : seconds / Hour)
-       << (seconds < Minute  ? " seconds"
-            : seconds < Hour ? " minutes"
-                             : " hours");
+       << seconds / unit << name;
   input.announce(text.str(), seconds >= Hour);
 }
 

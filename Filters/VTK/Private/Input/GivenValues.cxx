@@ -165,13 +165,13 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
 }
 
 PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places,
-  const std::string& input, std::string& warning)
+  const std::string& input, std::vector<std::string>& warnings)
 {
   if (places->GetNumberOfPoints() == 0)
   {
     throw InvalidInput("The input " + input + " has no points.");
   }
-  const std::vector<Id> nearest = NearestPoints(mesh, places, input, warning);
+  const std::vector<Id> nearest = NearestPoints(mesh, places, input, warnings);
   std::vector<Id> known;
   PointValues given;
   for (Id place = 0; place < static_cast<Id>(nearest.size()); ++place)

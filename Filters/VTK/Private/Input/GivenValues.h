@@ -49,10 +49,10 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
 
 /// Returns the values of all points of a data set, each at the nearest mesh point that a triangle
 /// uses. NaN is unknown. Throws InvalidInput if no value is known or one is infinite.
-/// @param input    its name for messages
-/// @param warning  gets a sentence if places are far from the surface (NearestPoints)
+/// @param input     its name for messages
+/// @param warnings  one sentence if places are far from the surface (NearestPoints)
 PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places,
-  const std::string& input, std::string& warning);
+  const std::string& input, std::vector<std::string>& warnings);
 
 } // namespace gridfem
 

@@ -110,8 +110,8 @@ Vec3 PlaceAt(vtkDataSet* places, vtkIdType point)
   return { place[0], place[1], place[2] };
 }
 
-std::vector<Id> NearestOfAll(
-  const UsedPointFinder& finder, vtkDataSet* places, const std::string& input, std::string& warning)
+std::vector<Id> NearestOfAll(const UsedPointFinder& finder, vtkDataSet* places,
+  const std::string& input, std::vector<std::string>& warnings)
 {
   std::vector<Id> nearest;
   vtkIdType count = 0;
@@ -129,7 +129,7 @@ std::vector<Id> NearestOfAll(
       farthest = k;
     }
   }
-  warning.clear();
+  warnings.clear();
   if (count > 0)
   {
     std::ostringstream text;
@@ -138,7 +138,7 @@ std::vector<Id> NearestOfAll(
          << farthest << " is the farthest, by " << largest
          << ". They count at the nearest points of the surface. Leave them out, for example with "
             "Clip, if they do not belong to it.";
-    warning = text.str();
+    warnings.push_back(text.str());
   }
   return nearest;
 }
@@ -168,19 +168,19 @@ void AddBetween(
 
 } // namespace
 
-std::vector<Id> NearestPoints(
-  const TriangleMesh& mesh, vtkDataSet* places, const std::string& input, std::string& warning)
+std::vector<Id> NearestPoints(const TriangleMesh& mesh, vtkDataSet* places,
+  const std::string& input, std::vector<std::string>& warnings)
 {
   RequireFinitePoints(places, input);
-  return NearestOfAll(UsedPointFinder(mesh), places, input, warning);
+  return NearestOfAll(UsedPointFinder(mesh), places, input, warnings);
 }
 
-std::vector<Id> NearestPointsAlongLines(
-  const TriangleMesh& mesh, vtkDataSet* places, const std::string& input, std::string& warning)
+std::vector<Id> NearestPointsAlongLines(const TriangleMesh& mesh, vtkDataSet* places,
+  const std::string& input, std::vector<std::string>& warnings)
 {
   RequireFinitePoints(places, input);
   const UsedPointFinder finder(mesh);
-  std::vector<Id> nearest = NearestOfAll(finder, places, input, warning);
+  std::vector<Id> nearest = NearestOfAll(finder, places, input, warnings);
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < places->GetNumberOfCells(); ++cell)
   {

@@ -15,9 +15,9 @@ namespace gridfem
 /// Returns the given point ids and the mesh points nearest to the points and lines of `places` (may
 /// be null), ascending, every point once. Points that no polygon uses do not count. Throws
 /// InvalidInput naming an id that no polygon uses, or a point of `places` that is not finite.
-/// @param warning  gets a sentence if places are far from the surface (NearestPoints)
-std::vector<Id> SourcePoints(
-  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places, std::string& warning);
+/// @param warnings  one sentence if places are far from the surface (NearestPoints)
+std::vector<Id> SourcePoints(const TriangleMesh& mesh, const std::vector<Id>& ids,
+  vtkDataSet* places, std::vector<std::string>& warnings);
 
 } // namespace gridfem
 

@@ -23,41 +23,25 @@ using Flat = ParameterizationSolver::Flat;
 
 constexpr const char* TextureName = "TCoords";
 
-/// Copies the tuples of an array at the given places.
-vtkSmartPointer<vtkAbstractArray> TuplesAt(vtkAbstractArray* array, const std::vector<Id>& places)
-{
-  auto output = vtk::TakeSmartPointer(array->NewInstance());
-  output->SetName(array->GetName());
-  output->SetNumberOfComponents(array->GetNumberOfComponents());
-  output->CopyComponentNames(array);
-  output->SetNumberOfTuples(static_cast<vtkIdType>(places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k)
-  {
-    output->SetTuple(static_cast<vtkIdType>(k), places[k], array);
-  }
-  return output;
-}
-
 /// Copies all arrays but ghost flags and ids, which belong to the input.
 void CopyArrays(vtkDataSetAttributes* input, vtkIdType count, const char* kind,
   const std::vector<Id>& places, vtkDataSetAttributes* output)
 {
+  vtkNew<vtkIdList> from;
+  for (const Id place : places)
+  {
+    from->InsertNextId(place);
+  }
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
-    const bool isGhost = array == input->GetArray(vtkDataSetAttributes::GhostArrayName());
-    if (isGhost || array == input->GetGlobalIds() || array == input->GetPedigreeIds())
+    if (BelongsToItsPlaces(array, input))
     {
       continue;
     }
     RequireLength(array, count, kind);
-    output->AddArray(TuplesAt(array, places));
+    output->AddArray(PickTuples(array, from));
   }
-}
-
-MultiVector ColumnOf(const std::vector<double>& values)
-{
-  return Eigen::Map<const MultiVector>(values.data(), static_cast<Id>(values.size()), 1);
 }
 
 /// Adds one number per chart.
@@ -99,8 +83,7 @@ void AddFlatMap(
   data->AddArray(MakePointArray("AngleDistortion", means.col(0), VTK_DOUBLE));
   data->AddArray(MakePointArray("AreaDistortion", means.col(1), VTK_DOUBLE));
   data->AddArray(MakeIdArray("ChartId", chart));
-  output->GetPointData()->SetActiveScalars(nullptr); // ParaView prefers them to those of cells
-  data->SetActiveScalars("AreaDistortion");
+  ColorByCells(output, "AreaDistortion");
   AddChartNumbers(result.charts, output);
   if (!result.isCut) // a point on a cut has two places in the map
   {
@@ -157,8 +140,8 @@ void WriteFlatMap(const ParameterizationSolver::Result& result, const InputMesh&
   ofPoints->SetTCoords(MakePointArray(TextureName, flat.texture, VTK_DOUBLE));
   ofPoints->AddArray(MakePointArray("SurfacePosition", places, VTK_DOUBLE));
   ofPoints->AddArray(MakeIdArray("SurfacePoint", flat.pointOf));
-  ofCells->AddArray(MakePointArray("AngleDistortion", ColumnOf(flat.angle), VTK_DOUBLE));
-  ofCells->AddArray(MakePointArray("AreaDistortion", ColumnOf(flat.area), VTK_DOUBLE));
+  ofCells->AddArray(MakePointArray("AngleDistortion", flat.angle, VTK_DOUBLE));
+  ofCells->AddArray(MakePointArray("AreaDistortion", flat.area, VTK_DOUBLE));
   ofCells->AddArray(MakeIdArray("ChartId", charts));
   ofCells->SetActiveScalars("AreaDistortion");
   AddChartNumbers(result.charts, output);

@@ -103,11 +103,7 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
     const auto nearest = std::max_element(weight.begin(), weight.end()) - weight.begin();
     from->InsertNextId(mesh.triangles[at.triangle][nearest]);
   }
-  auto output = vtk::TakeSmartPointer(input->NewInstance());
-  CopyNames(input, output);
-  SetTuples(output, from->GetNumberOfIds());
-  input->GetTuples(from, output);
-  return output;
+  return PickTuples(input, from);
 }
 
 } // namespace
@@ -121,6 +117,27 @@ void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind
                        std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
                        std::to_string(expected) + " " + kind + ".");
   }
+}
+
+bool BelongsToItsPlaces(vtkAbstractArray* array, vtkDataSetAttributes* attributes)
+{
+  return array == attributes->GetArray(vtkDataSetAttributes::GhostArrayName()) ||
+         array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds();
+}
+
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* array, vtkIdType tuples)
+{
+  auto made = vtk::TakeSmartPointer(array->NewInstance());
+  CopyNames(array, made);
+  SetTuples(made, tuples);
+  return made;
+}
+
+vtkSmartPointer<vtkAbstractArray> PickTuples(vtkAbstractArray* array, vtkIdList* places)
+{
+  auto picked = MakeLike(array, places->GetNumberOfIds());
+  array->GetTuples(places, picked);
+  return picked;
 }
 
 bool IsColor(vtkAbstractArray* array)
@@ -198,11 +215,7 @@ void CopyCellArrays(
       continue;
     }
     RequireLength(array, numberOfCells, "cells");
-    auto copy = vtk::TakeSmartPointer(array->NewInstance());
-    CopyNames(array, copy);
-    SetTuples(copy, count);
-    array->GetTuples(from, copy);
-    output->AddArray(copy);
+    output->AddArray(PickTuples(array, from));
   }
   PassActiveAttributes(input, output);
 }

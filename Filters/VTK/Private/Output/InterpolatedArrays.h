@@ -4,12 +4,16 @@
 
 #include "Grid/Clip.h"
 
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
 #include <string>
 
 class vtkAbstractArray;
 class vtkCellData;
 class vtkDataArray;
 class vtkDataSetAttributes;
+class vtkIdList;
 class vtkPointData;
 
 namespace gridfem
@@ -25,6 +29,17 @@ bool IsColor(vtkAbstractArray* array);
 /// Throws InvalidInput, naming the array, unless it has this number of tuples.
 /// @param kind  the tuples belong to: "points" or "cells"
 void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind);
+
+/// Whether an array belongs to the points or cells themselves, so that no copy at other places has
+/// it: ghost flags, global ids and pedigree ids.
+bool BelongsToItsPlaces(vtkAbstractArray* array, vtkDataSetAttributes* attributes);
+
+/// Returns an array of the same type and names with so many tuples, without values. Throws
+/// std::bad_alloc.
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* array, vtkIdType tuples);
+
+/// Returns the tuples of an array at some places. Throws std::bad_alloc.
+vtkSmartPointer<vtkAbstractArray> PickTuples(vtkAbstractArray* array, vtkIdList* places);
 
 /// Adds point arrays at the clipped points. Without cut points they are shared unchanged. Real
 /// numbers are linear along source triangles, as double. Colors (bytes with 3 or 4 components) are

@@ -20,9 +20,7 @@ namespace
 void AddNumbers(
   const char* name, const std::vector<double>& values, int dataType, vtkPolyData* output)
 {
-  const Eigen::Map<const Eigen::VectorXd> column(
-    values.data(), static_cast<Eigen::Index>(values.size()));
-  output->GetPointData()->AddArray(MakePointArray(name, column, dataType));
+  output->GetPointData()->AddArray(MakePointArray(name, values, dataType));
 }
 
 /// Returns normals that replace the active normals at points, on the same side of the surface. Null
@@ -75,7 +73,7 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
   std::vector<double> along(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const std::size_t at = oriented.pointWithTriangle.empty() ? k : oriented.pointWithTriangle[k];
+    const Id at = oriented.PointWithTriangle(static_cast<Id>(k));
     along[k] = normals[at].dot(points[k] - mesh.points[k]);
   }
   AddNumbers("NormalDisplacement", along, dataType, output);

@@ -24,11 +24,7 @@ namespace
 vtkSmartPointer<vtkAbstractArray> AlongPaths(vtkAbstractArray* array,
   const std::vector<PathSolver::Path>& paths, const TriangleMesh& mesh, vtkIdType points)
 {
-  auto output = vtk::TakeSmartPointer(array->NewInstance());
-  output->SetName(array->GetName());
-  output->SetNumberOfComponents(array->GetNumberOfComponents());
-  output->CopyComponentNames(array);
-  output->SetNumberOfTuples(points);
+  auto output = MakeLike(array, points);
   const bool isLinear = IsReal(array) || IsColor(array);
   vtkIdType place = 0;
   vtkNew<vtkIdList> corners;
@@ -68,10 +64,9 @@ void AddArraysAlongPaths(const std::vector<PathSolver::Path>& paths, const Trian
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
-    const bool isGhost = array == input->GetArray(vtkDataSetAttributes::GhostArrayName());
-    if (isGhost || array == input->GetGlobalIds() || array == input->GetPedigreeIds())
+    if (BelongsToItsPlaces(array, input))
     {
-      continue; // they are of points of the mesh
+      continue;
     }
     RequireLength(array, static_cast<Id>(mesh.points.size()), "points");
     output->AddArray(AlongPaths(array, paths, mesh, points));

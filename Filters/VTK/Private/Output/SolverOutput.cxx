@@ -2,12 +2,14 @@
 
 #include "Pipeline/Allocation.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -49,6 +51,20 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 {
   return dataType == VTK_FLOAT ? CopyRows<vtkFloatArray>(name, values)
                                : CopyRows<vtkDoubleArray>(name, values);
+}
+
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const std::vector<double>& values, int dataType)
+{
+  const Eigen::Map<const Eigen::VectorXd> column(
+    values.data(), static_cast<Eigen::Index>(values.size()));
+  return MakePointArray(name, MultiVector(column), dataType);
+}
+
+void ColorByCells(vtkPolyData* output, const char* name)
+{
+  output->GetPointData()->SetActiveScalars(nullptr);
+  output->GetCellData()->SetActiveScalars(name);
 }
 
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids)

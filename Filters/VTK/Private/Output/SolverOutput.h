@@ -23,6 +23,13 @@ namespace gridfem
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
+/// The same with one component.
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const std::vector<double>& values, int dataType);
+
+/// Makes a cell array active, and no point array, because ParaView colors by points first.
+void ColorByCells(vtkPolyData* output, const char* name);
+
 /// Returns an array of ids of points.
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
 
