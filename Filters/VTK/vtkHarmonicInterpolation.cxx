@@ -2,6 +2,7 @@
 
 #include "Input/GivenValues.h"
 #include "Input/InputArray.h"
+#include "Input/JoinedArrays.h"
 #include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
@@ -18,7 +19,6 @@
 #include "vtkSelection.h"
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 vtkStandardNewMacro(vtkHarmonicInterpolation);
@@ -29,16 +29,12 @@ namespace
 /// Whether values are known at some points, but not at all of them. A NaN makes a tuple unknown.
 bool KnowsSome(vtkDataArray* array)
 {
-  const int components = array->GetNumberOfComponents();
+  gridfem::InputArray one;
+  one.array = array;
   vtkIdType unknown = 0;
   for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
   {
-    int c = 0;
-    while (c < components && !std::isnan(array->GetComponent(k, c)))
-    {
-      ++c;
-    }
-    unknown += c < components ? 1 : 0;
+    unknown += gridfem::IsUnknown(one, k) ? 1 : 0;
   }
   return unknown > 0 && unknown < array->GetNumberOfTuples();
 }
@@ -61,9 +57,21 @@ gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
 struct vtkHarmonicInterpolation::Internals
 {
   gridfem::InputArray Array; // where the values come from; none for the table
+  gridfem::JoinedArrays Arrays;
   std::vector<std::array<double, 2>> Table;
   std::vector<std::string> FarValues; // warnings of this run
   gridfem::InterpolationSolver Solver;
+
+  void Write(const gridfem::MultiVector& values, vtkPointData* points) const
+  {
+    if (this->Array.array)
+    {
+      this->Arrays.AddSolutions("Interpolated", values, points);
+      return;
+    }
+    points->AddArray(gridfem::MakePointArray("Interpolated", values, VTK_DOUBLE));
+    points->SetActiveScalars("Interpolated");
+  }
 };
 
 vtkHarmonicInterpolation::vtkHarmonicInterpolation()
@@ -95,7 +103,11 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   gridfem::GivenConstraints values;
   if (places)
   {
-    array = gridfem::FindArrayOfPlaces(this, places, "Values", "Value Array");
+    array = this->Data->Arrays.Join(this, surface,
+      gridfem::FindArrayOfPlaces(this, places, "Values", "Value Array"), "Value Array",
+      [this, places](int index, const std::string& property) {
+        return gridfem::FindInputArray(this, index, places, "In the input Values, the " + property);
+      });
     values.find = [this, array, places, &surface] {
       return gridfem::ValuesOfPlaces(
         array, surface.Mesh(), places, "Values", this->Data->FarValues);
@@ -110,6 +122,8 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   gridfem::RequirePointArray(array, "Value Array",
     "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points. "
     "Or type points with their values into Known Values.");
+  array = this->Data->Arrays.Join(this, surface, array, "Value Array",
+    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
   const gridfem::InputArray mask = surface.Find(1, "Mask Array");
   values.find = [this, array, mask, &surface]
   { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
@@ -156,17 +170,22 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
     data.Solver.Update(surface, { values }, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
-  const char* name = "Interpolated";
-  output->GetPointData()->AddArray(
-    data.Array.array
-      ? gridfem::MakeSolution(name, result.atPoints, data.Array, data.Array.array->GetDataType())
-      : gridfem::MakePointArray(name, result.atPoints, VTK_DOUBLE));
-  output->GetPointData()->SetActiveScalars("Interpolated");
+  data.Write(result.atPoints, output->GetPointData());
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);
   gridfem::AddFieldNumber(output, "Misfit", result.misfit);
   this->Warn(data.FarValues);
   this->Warn(result.warnings);
+}
+
+void vtkHarmonicInterpolation::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkHarmonicInterpolation::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
 }
 
 void vtkHarmonicInterpolation::AddKnownValue(double point, double value)
@@ -194,6 +213,7 @@ void vtkHarmonicInterpolation::FreeStages()
   this->Superclass::FreeStages();
   this->Selection->Free();
   this->Data->Array = gridfem::InputArray();
+  this->Data->Arrays = gridfem::JoinedArrays();
   this->Data->Solver = gridfem::InterpolationSolver();
 }
 

@@ -1,6 +1,7 @@
 #include "vtkHeatDiffusion.h"
 
 #include "Input/InputArray.h"
+#include "Input/JoinedArrays.h"
 #include "Input/SelectedPoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
@@ -28,6 +29,7 @@ vtkStandardNewMacro(vtkHeatDiffusion);
 struct vtkHeatDiffusion::Internals
 {
   gridfem::InputArray Array; // none: the coordinates
+  gridfem::JoinedArrays Arrays;
   gridfem::InputArray Source;
   gridfem::InputArray Mask;
   gridfem::DiffusionSolver Solver;
@@ -80,7 +82,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
-  data.Array = surface.Find(0, "Array");
+  data.Array = data.Arrays.Join(this, surface, surface.Find(0, "Array"), "Array",
+    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
   data.Source = surface.Find(1, "Heat Source Array");
   data.Mask = surface.Find(2, "Constraint Array");
 
@@ -126,16 +129,13 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 
 void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* output)
 {
-  const gridfem::InputArray& array = this->Data->Array;
   const gridfem::DiffusionSolver::Result& result = *this->Data->Result;
   gridfem::MultiVector values = result.steps[static_cast<std::size_t>(shown) - 1].atPoints;
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
-  if (array.array)
+  if (this->Data->Array.array)
   {
-    points->AddArray(gridfem::MakeSolution(
-      "Diffused", values, array, this->State->Surface().DataTypeOf(0, array)));
-    points->SetActiveScalars("Diffused");
+    this->Data->Arrays.AddSolutions("Diffused", values, points);
   }
   else
   {
@@ -144,6 +144,16 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
     gridfem::MoveSurface(this->State->Surface().Mesh(), values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
+}
+
+void vtkHeatDiffusion::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkHeatDiffusion::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
 }
 
 void vtkHeatDiffusion::FreeStages()

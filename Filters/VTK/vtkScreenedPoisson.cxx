@@ -1,6 +1,7 @@
 #include "vtkScreenedPoisson.h"
 
 #include "Input/InputArray.h"
+#include "Input/JoinedArrays.h"
 #include "Input/SelectedPoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
@@ -28,6 +29,7 @@ vtkStandardNewMacro(vtkScreenedPoisson);
 struct vtkScreenedPoisson::Internals
 {
   gridfem::InputArray Value; // none: the coordinates
+  gridfem::JoinedArrays Arrays;
   gridfem::InputArray Gradient;
   gridfem::InputArray Scale;
   gridfem::InputArray Weight;
@@ -72,7 +74,8 @@ void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
   gridfem::InputSurface& surface = this->State->Surface();
-  data.Value = surface.Find(0, "Value Array");
+  data.Value = data.Arrays.Join(this, surface, surface.Find(0, "Value Array"), "Value Array",
+    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
   data.Gradient = surface.Find(1, "Gradient Array");
   data.Scale = surface.Find(2, "Gradient Scale Array");
   data.Weight = surface.Find(3, "Value Weight Array");
@@ -163,9 +166,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   vtkPointData* points = output->GetPointData();
   if (data.Value.array)
   {
-    points->AddArray(
-      gridfem::MakeSolution("Solution", values, data.Value, surface.DataTypeOf(0, data.Value)));
-    points->SetActiveScalars("Solution");
+    data.Arrays.AddSolutions("Solution", values, points);
   }
   else
   {
@@ -175,6 +176,16 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
     gridfem::MoveSurface(surface.CurrentMesh(), values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
+}
+
+void vtkScreenedPoisson::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkScreenedPoisson::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
 }
 
 void vtkScreenedPoisson::FreeStages()

@@ -193,6 +193,17 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
+  ///@{
+  /**
+   * Further arrays that are solved for together with the array of index 0, and in the same way.
+   * They are of points if this array is, else of cells. The result of each has the name of the
+   * array before its name, as in `Thickness_Solution`. All errors, and all other numbers in the
+   * field data, are then the worst of all arrays. None by default.
+   */
+  void AddFurtherArray(const char* name);
+  void ClearFurtherArrays();
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */

@@ -98,7 +98,7 @@ STARTS = {
 # Values that a rule below does not find.
 OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5], [1, 9]], "TargetPointIds": [[7], [20, 30]],
                 "NumberOfModes": [6, 3], "Mode": [1, 2], "Accuracy": [0.01], "WantedError": [0.3],
-                "ResultPrefix": ["Mine "], "FirstMode": [2], "LastMode": [3],
+                "ResultPrefix": ["Mine "], "FurtherArrays": [["p_g"], ["p_g", "p_vector"]], "FirstMode": [2], "LastMode": [3],
                 # Each observation takes a solve.
                 "ObservationArray": [[POINTS, "p_known"]],
                 "MaskArray": [[POINTS, "p_other_few"], ["CELLS", "c_few"]],

@@ -19,7 +19,9 @@ CASES = {
     "heat": ("HeatDiffusion", {"DiffusionTime": 0.01}, 1e-8),
     "heat with a source": ("HeatDiffusion", {"arrays": {1: "f"}}, 1e-8),
     "heat, held": ("HeatDiffusion", {"DiffusionTime": 0.01, "arrays": {2: "mask"}}, 1e-7),
+    "heat, further arrays": ("HeatDiffusion", {"arrays": {10: "v", 11: "f2"}}, 1e-8),
     "poisson": ("ScreenedPoisson", {}, 1e-8),
+    "poisson, further arrays": ("ScreenedPoisson", {"arrays": {0: "c", 10: "c"}}, 1e-8),
     "poisson, held": (
         "ScreenedPoisson", {"UseValueGradient": True,
                             "arrays": {0: "v", 4: "mask"}}, 1e-7),

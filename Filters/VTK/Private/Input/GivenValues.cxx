@@ -17,18 +17,6 @@ namespace gridfem
 namespace
 {
 
-bool HasNaN(vtkDataArray* array, vtkIdType tuple)
-{
-  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-  {
-    if (std::isnan(array->GetComponent(tuple, c)))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Returns the values at some points, a row for each. Throws InvalidInput if one is not finite.
 MultiVector FiniteValues(const InputArray& input, const std::vector<Id>& points)
 {
@@ -90,7 +78,7 @@ PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   PointValues given;
   for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
   {
-    if (used[point] && IsChosen(point, mask, selection) && !HasNaN(array.array, point))
+    if (used[point] && IsChosen(point, mask, selection) && !IsUnknown(array, point))
     {
       given.points.push_back(point);
     }
@@ -176,7 +164,7 @@ PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vt
   PointValues given;
   for (Id place = 0; place < static_cast<Id>(nearest.size()); ++place)
   {
-    if (!HasNaN(array.array, place))
+    if (!IsUnknown(array, place))
     {
       known.push_back(place);
       given.points.push_back(nearest[place]);

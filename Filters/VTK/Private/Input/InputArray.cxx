@@ -108,18 +108,34 @@ void RequireFound(
   }
 }
 
+std::string NameOfTuple(const InputArray& input, vtkIdType tuple)
+{
+  const bool onPoints = input.association == FieldAssociation::Points;
+  return (onPoints ? "point " : "cell ") + std::to_string(tuple);
+}
+
+bool HasNaN(vtkDataArray* array, vtkIdType tuple, int first, int components)
+{
+  int c = first;
+  while (c < first + components && !std::isnan(array->GetComponent(tuple, c)))
+  {
+    ++c;
+  }
+  return c < first + components;
+}
+
 /// Copies a tuple into a row. Throws if a value is not finite.
 void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector& values, Id row)
 {
   double* const to = values.data() + row * values.cols();
   input.array->GetTuple(tuple, to);
+  const bool mayBeNaN = nans == NaNs::Kept && IsUnknown(input, tuple);
   for (const double* value = to; value != to + values.cols(); ++value)
   {
-    if (!std::isfinite(*value) && !(nans == NaNs::Kept && std::isnan(*value)))
+    if (!std::isfinite(*value) && !(mayBeNaN && std::isnan(*value)))
     {
-      const bool onPoints = input.association == FieldAssociation::Points;
       throw InvalidInput("Array '" + input.name + "' has a NaN or infinite value at " +
-                         (onPoints ? "point " : "cell ") + std::to_string(tuple) +
+                         NameOfTuple(input, tuple) +
                          ". Replace such values first, for example with the Calculator.");
     }
   }
@@ -175,6 +191,26 @@ InputArray OnlyArray(
     }
   }
   return only;
+}
+
+bool IsUnknown(const InputArray& input, vtkIdType tuple)
+{
+  if (!HasNaN(input.array, tuple, 0, input.array->GetNumberOfComponents()))
+  {
+    return false;
+  }
+  int first = 0;
+  for (const int components : input.parts)
+  {
+    if (!HasNaN(input.array, tuple, first, components))
+    {
+      throw InvalidInput("Some of the arrays '" + input.name + "' are NaN at " +
+                         NameOfTuple(input, tuple) +
+                         " and some are not. Choose arrays that are known at the same places.");
+    }
+    first += components;
+  }
+  return true;
 }
 
 Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans)

@@ -6,9 +6,12 @@
 #include "Input/InputMesh.h"
 #include "Solvers/GivenField.h"
 
+#include "vtkType.h"
+
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataArray;
@@ -24,6 +27,8 @@ struct InputArray
   vtkDataArray* array = nullptr;
   FieldAssociation association = FieldAssociation::Points; // Triangles: cell data
   std::string name;
+  std::vector<int>
+    parts{}; // components of each array that it is joined from; empty: it is one array
 };
 
 /// Thrown if the input lacks the chosen array.
@@ -59,6 +64,10 @@ InputArray FindInputArray(
 /// there is none or a second one.
 InputArray OnlyArray(
   vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits);
+
+/// Whether a component of a tuple is NaN. Throws InvalidInput if this holds for some of the arrays
+/// that it is joined from, but not for all.
+bool IsUnknown(const InputArray& input, vtkIdType tuple);
 
 /// Returns the array's values: rows are points, or triangles for cell data. Values that no polygon
 /// uses are taken as 0. Throws InvalidInput naming the first point or cell of the surface with a
