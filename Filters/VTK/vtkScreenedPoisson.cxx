@@ -110,7 +110,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.options.trackMetric = this->TrackMetric && !(this->WantedError > 0.0);
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
   this->FindArrays();
 
   gridfem::PoissonSolver::Options options;

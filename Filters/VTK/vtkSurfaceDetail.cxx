@@ -88,7 +88,7 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   data.Value = surface.Find(0, "Value Array");
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
 
   gridfem::DetailSolver::Input given;
   given.values = surface.Given(data.Value);

@@ -110,8 +110,7 @@ ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end
 WARM = {"ScreenedPoisson", "SurfaceDetail"}
 REPORTS = {"Iterations", "Residual", "ConvergenceFactor", "AlgebraicError", "DiscretizationError",
            "LargestDiscretizationError", "TrustedEstimate"}
-LEFT_OUT = {"NumberOfThreads",  # changes no bit
-            "CyclesPerApply"}   # goes on from the result before by its nature
+LEFT_OUT = {"NumberOfThreads"}  # changes no bit
 
 
 def contents(proxy):

@@ -7,6 +7,7 @@
 
 #include "vtkClipToOctree.h"
 #include "vtkGeodesicDistance.h"
+#include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
@@ -28,6 +29,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
+
+#include <utility>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -91,6 +94,22 @@ std::vector<vtkPolyData*> LeavesOf(vtkDataObject* data)
     leaves.push_back(vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()));
   }
   return leaves;
+}
+
+vtkSmartPointer<vtkSelection> SelectPoints(const std::vector<vtkIdType>& points)
+{
+  vtkNew<vtkSelectionNode> node;
+  node->SetFieldType(vtkSelectionNode::POINT);
+  node->SetContentType(vtkSelectionNode::INDICES);
+  vtkNew<vtkIdTypeArray> ids;
+  for (const vtkIdType point : points)
+  {
+    ids->InsertNextValue(point);
+  }
+  node->SetSelectionList(ids);
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  selection->AddNode(node);
+  return selection;
 }
 
 class BlocksAsOne : public ::testing::Test
@@ -355,15 +374,9 @@ TEST_F(BlocksAsOne, DistancesGoAcrossBlocks)
 
 TEST_F(BlocksAsOne, ASelectionInOneBlockIsTheSourceForAll)
 {
-  vtkNew<vtkSelectionNode> node;
-  node->SetFieldType(vtkSelectionNode::POINT);
-  node->SetContentType(vtkSelectionNode::INDICES);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->InsertNextValue(5);
-  node->SetSelectionList(ids);
-  node->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), 3); // the second part
-  vtkNew<vtkSelection> selection;
-  selection->AddNode(node);
+  auto selection = SelectPoints({ 5 });
+  selection->GetNode(0)->GetProperties()->Set(
+    vtkSelectionNode::COMPOSITE_INDEX(), 3); // the second part
   vtkNew<vtkGeodesicDistance> distance;
   this->SetUp(distance);
   distance->SetInputDataObject(0, this->Nested());
@@ -375,6 +388,48 @@ TEST_F(BlocksAsOne, ASelectionInOneBlockIsTheSourceForAll)
   EXPECT_EQ(values[5], 0.0);
   EXPECT_EQ(std::count(values.begin(), values.end(), 0.0), 1);
   EXPECT_TRUE(AllFinite(PointValues(leaves[0], "Distance")));
+}
+
+TEST_F(BlocksAsOne, ASelectionInTheLastBlockIsThatOfTheWhole)
+{
+  std::vector<vtkIdType> ofBlock;
+  std::vector<vtkIdType> ofWhole;
+  vtkDataArray* origin = parts[2]->GetPointData()->GetArray("origin");
+  for (vtkIdType point = 0; point < parts[2]->GetNumberOfPoints(); point += 2)
+  {
+    ofBlock.push_back(point);
+    ofWhole.push_back(static_cast<vtkIdType>(origin->GetComponent(point, 0)));
+  }
+  auto inBlock = SelectPoints(ofBlock);
+  inBlock->GetNode(0)->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), 6);
+  vtkNew<vtkScreenedPoisson> poisson;
+  vtkNew<vtkHeatDiffusion> heat;
+  heat->SetDiffusionTime(0.05);
+  vtkNew<vtkSurfaceDetail> detail;
+  detail->SetDetailScale(3.0);
+  for (const auto& [algorithm, result] :
+    { std::pair<Algorithm*, const char*>{ poisson, "Solution" }, { heat, "Diffused" },
+      { detail, "Filtered" } })
+  {
+    this->SetUp(algorithm);
+    algorithm->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    const auto run = [&](vtkDataObject* input, vtkSelection* selection)
+    {
+      algorithm->SetInputDataObject(0, input);
+      algorithm->SetInputDataObject(2, selection);
+      algorithm->Update();
+      auto output =
+        vtkSmartPointer<vtkDataObject>::Take(algorithm->GetOutputDataObject(0)->NewInstance());
+      output->ShallowCopy(algorithm->GetOutputDataObject(0));
+      return output;
+    };
+    const auto blocks = run(this->Nested(), inBlock);
+    const auto of = [](vtkDataObject* data) { return vtkPolyData::SafeDownCast(data); };
+    const auto reference = run(whole, SelectPoints(ofWhole));
+    const auto unselected = run(whole, nullptr);
+    EXPECT_LT(this->Apart(blocks, of(reference), result), 1e-8) << result;
+    EXPECT_GT(this->Apart(blocks, of(unselected), result), 1e-2) << result;
+  }
 }
 
 TEST_F(BlocksAsOne, UnchangedInputRebuildsNothing)

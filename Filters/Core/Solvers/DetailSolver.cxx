@@ -135,16 +135,18 @@ void DetailSolver::UpdateMetric(const Surface& surface, const Options& options, 
   key.Add(surface.GetStages().Version(SystemStage)).Add(options.smoothingScale);
   key.Add(
     options.smoothingScale > 0.0 ? surface.UsedOptions().parameterUnits : ParameterUnits::World);
+  key.Add(options.smoothingScale > 0.0 ? KeyOf(options.equation) : StageKey());
   surface.GetStages().Run(MetricStage, key,
     [&]
     {
       const TriangleMesh& mesh = surface.Mesh();
-      CurvatureReport report; // the smoothing ends at a tolerance far below its own error
+      CurvatureReport report;
       curvatures_ = CurvaturesOnTriangles(mesh,
         CurvaturesOf(surface, options.smoothingScale,
           WithThreads(options.equation, surface.Threads()), report,
           surface.MakeJob(job.progress.Part(0.0, 0.6))),
         surface.Threads());
+      smoothing_ = options.smoothingScale > 0.0 ? report.smoothing : SolveReport::Solved();
       result_.usualCurvature = UsualCurvature(mesh, curvatures_);
       onElements_ = space_->MeansOnElements(curvatures_.values, surface.Threads());
       weighted_ = space_->Copy();
@@ -179,6 +181,7 @@ void DetailSolver::UpdateSignal(
 {
   StageKey key;
   key.Add(surface.GetStages().Version(SystemStage)).Add(KeyOf(input.values));
+  key.Add(input.values ? KeyOf(options.equation) : StageKey());
   surface.GetStages().Run(SignalStage, key,
     [&]
     {
@@ -336,6 +339,14 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
   }
   result_.selected = fade_ ? fade_->values : MultiVector();
   result_.report = equation_.Report();
+  if (result_.isWeighted && !smoothing_.converged)
+  {
+    result_.report = smoothing_;
+  }
+  if (input.values && !signal_.report.converged)
+  {
+    result_.report = signal_.report;
+  }
   result_.accuracy = this->AccuracyOfChange(options);
   result_.warnings.clear();
   if (!result_.report.converged)

@@ -256,6 +256,7 @@ Id SmoothSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementP
   else
   {
     tensor_ = std::make_shared<const std::vector<Eigen::Matrix3d>>(metric.tensor);
+    normal_.reset();
   }
   own_ = std::move(matrices);
   metric_.reset();
@@ -269,6 +270,7 @@ void SmoothSpace::Integrate(const std::vector<double>* weight, const Job& job)
   weights.mass = weight;
   weights.tensor = metric_ ? &metric_->tensor : nullptr;
   tensor_.reset();
+  normal_.reset();
   own_ =
     std::make_shared<const SmoothMatrices>(IntegrateMatrices(*grid_, *operators_, weights, job));
 }
@@ -309,7 +311,7 @@ void SmoothSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& j
     throw InvalidInput("Weights need a split stiffness, and there has to be one per triangle.");
   }
   std::vector<double> mass(triangles);
-  std::vector<double> normal(triangles);
+  auto normal = std::make_shared<std::vector<double>>(triangles);
   auto tensor = std::make_shared<std::vector<Eigen::Matrix3d>>(triangles);
   for (std::size_t t = 0; t < triangles; ++t)
   {
@@ -320,14 +322,15 @@ void SmoothSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& j
       throw InvalidInput("Every triangle needs finite weights that are not negative.");
     }
     mass[t] = ofMass;
-    normal[t] = 0.5 * (ofStiffness[0] + ofStiffness[1]);
+    (*normal)[t] = 0.5 * (ofStiffness[0] + ofStiffness[1]);
     (*tensor)[t] =
       DirectionalTensor(TriangleFrame(*mesh_, static_cast<Id>(t)), (*direction_)[t], ofStiffness);
   }
   metric_.reset();
   own_ = std::make_shared<const SmoothMatrices>(
-    IntegrateMatrices(*grid_, *operators_, { &mass, tensor.get(), &normal }, job));
+    IntegrateMatrices(*grid_, *operators_, { &mass, tensor.get(), normal.get() }, job));
   tensor_ = std::move(tensor);
+  normal_ = std::move(normal);
 }
 
 /// With scales, the stiffness is integrated again.
@@ -347,6 +350,7 @@ MultiVector SmoothSpace::StiffnessTimes(
   }
   const std::vector<Eigen::Matrix3d>* const own = metric_ ? &metric_->tensor : tensor_.get();
   std::vector<Eigen::Matrix3d> tensor(scale.size());
+  const std::vector<double> normal = normal_ ? ProductOf(scale, *normal_) : scale;
   for (std::size_t t = 0; t < scale.size(); ++t)
   {
     tensor[t] = scale[t] * (own ? (*own)[t]
@@ -354,7 +358,7 @@ MultiVector SmoothSpace::StiffnessTimes(
                                     Vec3::Zero(), { 1.0, 1.0 }));
   }
   const SmoothElementMatrices elements = IntegrateSmoothElements(
-    *grid_, this->Rule(), operators_->normalStabilization, { nullptr, &tensor, &scale }, job);
+    *grid_, this->Rule(), operators_->normalStabilization, { nullptr, &tensor, &normal }, job);
   SparseMatrix stiffness = operators_->pattern.front();
   AssembleValues(this->Finest(), operators_->places.front(), elements.mass, 0.0, elements.stiffness,
     1.0, stiffness, job.threads);

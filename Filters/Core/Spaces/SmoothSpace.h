@@ -86,6 +86,7 @@ private:
   std::shared_ptr<const SmoothMatrices> own_; // set once numbers have changed
   /// Tensors of the stiffness on the triangles; null: the metric of the mesh.
   std::shared_ptr<const std::vector<Eigen::Matrix3d>> tensor_;
+  std::shared_ptr<const std::vector<double>> normal_; // factors along the normal; null: all are 1
   std::shared_ptr<const TriangleMetric> metric_; // null: the metric of the mesh, or of an embedding
   std::shared_ptr<const std::vector<Vec3>> direction_;
 };

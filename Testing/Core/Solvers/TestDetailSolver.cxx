@@ -74,6 +74,51 @@ TEST(DetailSolver, AScaleOfOneChangesNothing)
   EXPECT_LT(LargestMove(result.points, mesh->points), 1e-12);
 }
 
+TEST(DetailSolver, AnArrayOfOnesChangesNothingInAnyMetricAndSpace)
+{
+  const auto mesh = Ring();
+  DetailSolver::Input input;
+  input.scale = GivenField::Of("ones",
+    { FieldAssociation::Points, MultiVector::Ones(static_cast<Id>(mesh->points.size()), 1) });
+  DetailSolver::Options options = ByCurvature();
+  options.detailScale = 1.0;
+  for (const FunctionKind kind :
+    { FunctionKind::Grid, FunctionKind::Hats, FunctionKind::SmoothGrid })
+  {
+    SurfaceOptions surface = Coarse();
+    surface.choice.kind = kind;
+    const DetailSolver::Result result = DetailSolver::Solve(mesh, input, options, surface);
+    EXPECT_LT(LargestMove(result.points, mesh->points), 1e-8) << static_cast<int>(kind);
+  }
+}
+
+TEST(DetailSolver, AnIterationThatEndedEarlyIsNeitherHiddenNorKept)
+{
+  const auto mesh = Ring();
+  DetailSolver::Input input;
+  MultiVector values(static_cast<Id>(mesh->points.size()), 1);
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    values(point, 0) = std::sin(5.0 * mesh->points[point][0]);
+  }
+  input.values = GivenField::Of("f", { FieldAssociation::Points, values });
+  DetailSolver::Options options = ByCurvature();
+  options.smoothingScale = 0.05;
+  options.equation.solve.tolerance = 1e-10;
+  options.equation.solve.maximumIterations = 200;
+  const MultiVector right = DetailSolver::Solve(mesh, input, options, Coarse()).change;
+  DetailSolver::Options early = options;
+  early.equation.solve.maximumIterations = 1;
+  Stages stages;
+  LocalSurface surface(stages, mesh, Coarse());
+  DetailSolver solver;
+  EXPECT_FALSE(solver.Update(surface, input, early, {}).report.converged);
+  const DetailSolver::Result& result = solver.Update(surface, input, options, {});
+  EXPECT_TRUE(result.report.converged);
+  const double apart = (result.change - right).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  EXPECT_LT(apart, 1e-7);
+}
+
 TEST(DetailSolver, AScaleOfZeroMakesASphereSmallerAsTheEquationSays)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(32));

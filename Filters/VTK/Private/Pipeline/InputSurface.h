@@ -77,8 +77,7 @@ public:
 
   /// Updates the selected points.
   /// @param joined  the blocks that the surface is joined from; null: it is one block
-  void Select(
-    SelectedPoints& points, vtkSelection* selection, const JoinedBlocks* joined = nullptr) const;
+  void Select(SelectedPoints& points, vtkSelection* selection, const JoinedBlocks* joined) const;
 
   /// Returns the array in the form that solvers take.
   GivenField Given(const InputArray& array) const;
