@@ -124,8 +124,14 @@ void vtkGeodesicDistance::FindCurve(vtkDataSet* lines)
   gridfem::DistanceSolver::Input& input = this->Data->Input;
   input.labels = surface.Given(surface.Find(1, "Label Array"));
   input.curve.version.Add(lines);
-  input.curve.divide = [&surface, lines]
-  { return gridfem::CurveOfLines(lines, surface.Mesh(), surface.AreCoincidentPointsWelded()); };
+  input.curve.divide = [this, &surface, lines]
+  {
+    if (lines && lines->GetNumberOfPoints() > 0)
+    {
+      gridfem::NearestPoints(surface.Mesh(), lines, "Sources", this->Data->FarSources);
+    }
+    return gridfem::CurveOfLines(lines, surface.Mesh(), surface.AreCoincidentPointsWelded());
+  };
 }
 
 void vtkGeodesicDistance::Write(vtkPolyData* input, vtkPolyData* output)

@@ -179,13 +179,14 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   else
   {
     attributes = output->GetCellData();
-    std::vector<char> hasTriangles(input->GetNumberOfCells(), 0);
-    for (const gridfem::Id cell : surface.Triangles().sourceCell)
+    const gridfem::MultiVector means =
+      surface.MeansOnCells(stitched.values, input->GetNumberOfCells());
+    std::vector<char> hasArea(input->GetNumberOfCells());
+    for (gridfem::Id cell = 0; cell < means.rows(); ++cell)
     {
-      hasTriangles[cell] = 1;
+      hasArea[cell] = means.row(cell).hasNaN() ? 0 : 1;
     }
-    attributes->AddArray(WithValues(colors.array,
-      surface.MeansOnCells(stitched.values, input->GetNumberOfCells()), hasTriangles));
+    attributes->AddArray(WithValues(colors.array, means, hasArea));
   }
   attributes->SetActiveScalars("StitchedColors");
   gridfem::AddReport(stitched.report, output);

@@ -16,8 +16,8 @@
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
  * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not
- *   run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run, after a change,
- *   is a full one.
+ *   run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run, after a change
+ * or for another time, is a full one.
  *
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips.
  * vtkDataSetSurfaceFilter extracts the surface of any other vtkDataSet. The outputs then lie on
@@ -33,8 +33,9 @@
  * cut away. A cell is inside if its value is, or if all values at its points are. The output of a
  * solver has all points and cells of the input.
  *
- * Points that no polygon inside the domain uses have NaN in all results, except that colors stay as
- * in the input. If a filter moves points, these points stay in place and count as points at rest.
+ * Points that no polygon inside the domain uses have NaN in all results, and so have cells without
+ * an area and cells outside of the domain. Ids are -1 there, and colors stay as in the input. If a
+ * filter moves points, these points stay in place and count as points at rest.
  *
  * On several MPI ranks, all ranks compute together if they can. No rank then gathers the surface,
  * which may be larger than one machine, and the field array `Distributed` is 1. This needs welded

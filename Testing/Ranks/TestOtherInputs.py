@@ -7,7 +7,7 @@ import numpy
 from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_VERTEX, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
+    VTK_POLY_LINE, VTK_VERTEX, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
     vtkPolyData, vtkUnstructuredGrid)
 from vtkmodules.vtkIOParallelXML import vtkXMLPPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
@@ -186,6 +186,27 @@ class OtherPorts(unittest.TestCase):
             with self.subTest(where=where):
                 output = distance(data, places(own))
                 ranks.check(self, expect(output, reference, "Distance", data))
+
+    def test_lines_of_unstructured_grids_wherever_they_are(self):
+        mesh = ranks.ellipsoid()
+        data = ranks.piece(mesh, "contiguous")
+
+        def line():
+            grid = places([(1, 0, 0), (0.7, 0.5, 0.1), (0, 0.8, 0)])
+            grid.InsertNextCell(VTK_POLY_LINE, 3, [0, 1, 2])
+            return grid
+
+        def distance(data, given):
+            filter_ = ranks.make("GeodesicDistance", hats=True)
+            filter_.SetInputDataObject(2, given)
+            return ranks.run(filter_, data)[0]
+        reference = ranks.alone(lambda: distance(ranks.whole(mesh), line()))
+        at_points = ranks.alone(
+            lambda: distance(ranks.whole(mesh), places([(1, 0, 0), (0.7, 0.5, 0.1), (0, 0.8, 0)])))
+        apart = ranks.apart(result(reference, "Distance"), result(at_points, "Distance"))
+        output = distance(data, line() if ranks.RANK == LAST else places([]))
+        ranks.check(self, expect(output, reference, "Distance", data) + (
+            [] if apart > 1e-2 else ["lines do not count"]))
 
     def test_given_values_on_every_rank_count_once(self):
         mesh = ranks.ellipsoid()

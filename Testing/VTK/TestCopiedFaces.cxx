@@ -38,6 +38,25 @@ TEST_P(CopiedFaces, AreCountedInTheFieldData)
   EXPECT_EQ(FieldValue(this->Run(doubled), "CopiedTriangles"), 5.0);
 }
 
+/// Points at the places of others get no result from copies elsewhere.
+TEST(CopiedFacesOfCurvatures, GiveNoCurvatureToPointsWithoutFaces)
+{
+  TriangleMesh mesh = GeodesicSphere(3);
+  const std::size_t without = mesh.points.size();
+  mesh.points.push_back(mesh.points[40]);
+  const auto& [a, b, c] = mesh.triangles[7];
+  mesh.points.push_back(mesh.points[a]);
+  mesh.triangles.push_back(
+    { static_cast<Id>(without + 1), b, c }); // a copy with a point of its own
+  vtkNew<vtkPrincipalCurvatures> filter;
+  filter->SetInputDataObject(ToPolyData(mesh));
+  filter->Update();
+  const std::vector<double> mean = PointValues(filter->GetOutput(), "MeanCurvature");
+  ASSERT_EQ(mean.size(), without + 2);
+  EXPECT_TRUE(std::isnan(mean[without]));
+  EXPECT_EQ(mean[without + 1], mean[a]);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllFilters, CopiedFaces, AllFilters(), NameOf);
 
 } // namespace

@@ -145,6 +145,31 @@ TEST_P(Domain, GivesTheResultsOfTheCutSurface)
   }
 }
 
+TEST_P(Domain, HasNoResultsOnCellsOutside)
+{
+  auto filter = this->Run(whole, true);
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  const bool hasOwnCells = output->GetPolys() != whole->GetPolys();
+  vtkCellData* cells = output->GetCellData();
+  for (int k = 0; k < cells->GetNumberOfArrays() && !hasOwnCells; ++k)
+  {
+    vtkDataArray* array = cells->GetArray(k);
+    if (whole->GetCellData()->HasArray(array->GetName()))
+    {
+      continue;
+    }
+    const bool isReal = array->GetDataType() == VTK_DOUBLE;
+    vtkDataArray* region = whole->GetCellData()->GetArray("region");
+    for (vtkIdType cell = 0; cell < array->GetNumberOfTuples(); ++cell)
+    {
+      const bool isInside = region->GetComponent(cell, 0) >= 1.0;
+      const double value = array->GetComponent(cell, 0);
+      EXPECT_TRUE(isInside || (isReal ? std::isnan(value) : value == -1.0)) << array->GetName();
+      EXPECT_TRUE(!isInside || !isReal || std::isfinite(value)) << array->GetName();
+    }
+  }
+}
+
 TEST_P(Domain, KeepsTheGhostFlagsOfTheInput)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;

@@ -215,8 +215,8 @@ TEST(GeodesicDistanceFilter, WarnsOfSourcesFarFromTheSurface)
     DistancesOf(filter);
     const bool isFar = height > 1.2;
     ASSERT_EQ(messages.warnings.size(), isFar ? 1u : 0u) << height;
-    EXPECT_TRUE(!isFar || messages.warnings[0].find("Sources: 1 of 2 is farther than 0.1") !=
-                            std::string::npos)
+    EXPECT_TRUE(!isFar || messages.warnings[0].find(
+                            "Sources: 1 of its 2 points is farther than 0.1") != std::string::npos)
       << height;
   }
 }
@@ -265,6 +265,40 @@ TEST(GeodesicDistanceFilter, StartsFromAllOfALine)
   for (std::size_t k = 0; k < distance.size(); ++k)
   {
     EXPECT_TRUE(distance[k] > 0.0 || std::abs(sphere.points[k][2]) > 0.98) << k;
+  }
+}
+
+/// On a mesh whose edges grow from 1e-5 to 0.07, a line passes through all points of a row.
+TEST(GeodesicDistanceFilter, StartsFromAllPointsOfALineOnAGradedMesh)
+{
+  TriangleMesh graded = FlatRectangle(40, 40);
+  for (Vec3& point : graded.points)
+  {
+    point[0] = std::pow(point[0], 3.0);
+  }
+  auto filter = MakeFilter(ToPolyData(graded));
+  filter->SetInputDataObject(2, LineBetween({ 0, 0.5, 0 }, { 1, 0.5, 0 }));
+  const std::vector<double> distance = DistancesOf(filter);
+  ASSERT_EQ(distance.size(), graded.points.size());
+  for (std::size_t k = 0; k < distance.size(); ++k)
+  {
+    EXPECT_EQ(distance[k] == 0.0, graded.points[k][1] == 0.5) << graded.points[k].transpose();
+  }
+}
+
+TEST(GeodesicDistanceFilter, WarnsOfACurveFarFromTheSurface)
+{
+  for (const double height : { 0.0, 0.5 })
+  {
+    auto filter = MakeFilter(ToPolyData(FlatRectangle(10, 10)), 4);
+    filter->SignedOn();
+    filter->SetInputDataObject(2, LineBetween({ 0.5, -0.1, height }, { 0.5, 1.1, height }));
+    const Messages messages(filter);
+    DistancesOf(filter);
+    const bool warns = std::any_of(messages.warnings.begin(), messages.warnings.end(),
+      [](const std::string& text)
+      { return text.find("Sources: 2 of its 2 points are farther than") != std::string::npos; });
+    EXPECT_EQ(warns, height > 0.2);
   }
 }
 

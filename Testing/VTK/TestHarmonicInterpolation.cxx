@@ -286,8 +286,9 @@ TEST(HarmonicInterpolationFilter, WarnsOfValuesFarFromTheSurface)
   Messages messages(filter);
   filter->Update();
   ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("Values: 1 of 3 is farther than"), std::string::npos);
-  EXPECT_NE(messages.warnings[0].find("Point 2 is the farthest, by 499"), std::string::npos);
+  EXPECT_NE(
+    messages.warnings[0].find("Values: 1 of its 3 points is farther than"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("The farthest is point 2, at 499"), std::string::npos);
 }
 
 TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)

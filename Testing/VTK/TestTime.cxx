@@ -93,6 +93,30 @@ TEST_F(Time, ScreenedPoissonFollowsTheInput)
     });
 }
 
+TEST_F(Time, AnAbortEndsTheRequestedTimeAlone)
+{
+  vtkNew<vtkScreenedPoisson> poisson;
+  this->Connect(poisson.Get());
+  poisson->SetInputArrayToProcess(0, 0, 0, Points, "x");
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(
+    [](vtkObject* object, unsigned long, void*, void*)
+    {
+      auto* filter = static_cast<vtkAlgorithm*>(object);
+      if (filter->GetProgress() < 0.9)
+      {
+        filter->SetAbortExecute(1);
+      }
+    });
+  const unsigned long observer = poisson->AddObserver(vtkCommand::ProgressEvent, abort);
+  poisson->UpdateTimeStep(1.0);
+  poisson->RemoveObserver(observer);
+  EXPECT_TRUE(IsEmptyData(poisson->GetOutput()));
+  poisson->UpdateTimeStep(2.0);
+  EXPECT_TRUE(AllFinite(PointValues(poisson->GetOutput(), "Solution")));
+  EXPECT_NEAR(poisson->GetOutput()->GetBounds()[1], 2.0, 0.1);
+}
+
 TEST_F(Time, ASingleStepOfHeatFollowsTheInput)
 {
   vtkNew<vtkHeatDiffusion> heat;

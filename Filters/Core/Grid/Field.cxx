@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
+#include "Grid/TriangleArea.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,27 @@ void RequireOnPoints(const Field& field, const TriangleMesh& mesh)
   {
     throw InvalidInput("A field that is constant on triangles has no gradient; give it on points.");
   }
+}
+
+MultiVector MeansOnCells(const TriangleMesh& mesh, const std::vector<Id>& sourceCell,
+  const MultiVector& onTriangles, Id cells)
+{
+  MultiVector mean = MultiVector::Zero(cells, onTriangles.cols());
+  std::vector<double> area(static_cast<std::size_t>(cells), 0.0);
+  for (Id t = 0; t < onTriangles.rows(); ++t)
+  {
+    const double ofTriangle = AreaOf(mesh, t);
+    if (ofTriangle > 0.0)
+    {
+      mean.row(sourceCell[t]) += ofTriangle * onTriangles.row(t);
+      area[sourceCell[t]] += ofTriangle;
+    }
+  }
+  for (Id cell = 0; cell < cells; ++cell)
+  {
+    mean.row(cell) /= area[cell]; // 0 / 0 is NaN
+  }
+  return mean;
 }
 
 } // namespace gridfem

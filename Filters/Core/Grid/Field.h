@@ -56,6 +56,11 @@ void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh)
 /// Multiplies two lists of weights, entry by entry.
 std::vector<double> ProductOf(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Returns the means of values on triangles over the cells that the triangles come from, weighted
+/// by area. Cells without an area have NaN.
+MultiVector MeansOnCells(const TriangleMesh& mesh, const std::vector<Id>& sourceCell,
+  const MultiVector& onTriangles, Id cells);
+
 /// Throws InvalidInput like RequireField, and unless the field is given on points.
 void RequireOnPoints(const Field& field, const TriangleMesh& mesh);
 

@@ -73,9 +73,12 @@ TriangleMesh WithoutCopies(const TriangleMesh& mesh, const Array<Index>& pointCl
   return kept;
 }
 
-std::vector<Id> PointsWithTriangle(const TriangleMesh& mesh, const Array<Index>& pointClass)
+/// @param without  the mesh without copies
+std::vector<Id> PointsWithTriangle(
+  const TriangleMesh& mesh, const TriangleMesh& without, const Array<Index>& pointClass)
 {
-  const std::vector<char> used = UsedPoints(mesh);
+  const std::vector<char> had = UsedPoints(mesh);
+  const std::vector<char> used = UsedPoints(without);
   std::vector<Id> ofClass(mesh.points.size(), -1);
   for (std::size_t point = 0; point < pointClass.size(); ++point)
   {
@@ -87,7 +90,8 @@ std::vector<Id> PointsWithTriangle(const TriangleMesh& mesh, const Array<Index>&
   std::vector<Id> points(mesh.points.size());
   for (std::size_t point = 0; point < points.size(); ++point)
   {
-    const Id other = pointClass.empty() || used[point] ? -1 : ofClass[pointClass[point]];
+    const bool lostAll = had[point] && !used[point] && !pointClass.empty();
+    const Id other = lostAll ? ofClass[pointClass[point]] : -1;
     points[point] = other < 0 ? static_cast<Id>(point) : other;
   }
   return points;
@@ -108,7 +112,7 @@ OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int thr
   oriented.copies = static_cast<Id>(mesh.triangles.size() - turned.triangles.size());
   if (oriented.copies > 0)
   {
-    oriented.pointWithTriangle = PointsWithTriangle(turned, pointClass);
+    oriented.pointWithTriangle = PointsWithTriangle(mesh, turned, pointClass);
   }
   const SurfaceEdges edges = FindSurfaceEdges(turned, weldCoincidentPoints, threads);
   oriented.oneSided = edges.numberOfOneSided;

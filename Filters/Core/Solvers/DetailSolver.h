@@ -99,7 +99,7 @@ private:
   void Report(const Surface& surface, const Input& input, const Options& options);
 
   TriangleCurvatures curvatures_;
-  SolveReport smoothing_; // of their normals
+  SolveReport smoothing_;  // of their normals
   MultiVector onElements_; // curvatures
   std::shared_ptr<const FiniteElementSpace> space_;
   std::unique_ptr<FiniteElementSpace> weighted_;

@@ -3,6 +3,7 @@
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
 #include "Grid/CopiedTriangles.h"
+#include "Grid/Field.h"
 #include "Grid/JoinSeams.h"
 #include "Grid/PolygonTriangles.h"
 
@@ -179,22 +180,7 @@ void Given::KeepPlaces(const std::string& name, MultiVector& places) const
 
 MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const
 {
-  MultiVector mean = MultiVector::Zero(numberOfCells, onTriangles.cols());
-  std::vector<double> area(numberOfCells, 0.0);
-  for (Id t = 0; t < onTriangles.rows(); ++t)
-  {
-    const Triangle& corner = mesh->triangles[t];
-    const Vec3& origin = mesh->points[corner[0]];
-    const double ofTriangle =
-      0.5 * (mesh->points[corner[1]] - origin).cross(mesh->points[corner[2]] - origin).norm();
-    mean.row(sourceCell[t]) += ofTriangle * onTriangles.row(t);
-    area[sourceCell[t]] += ofTriangle;
-  }
-  for (Id cell = 0; cell < numberOfCells; ++cell)
-  {
-    mean.row(cell) *= area[cell] > 0.0 ? 1.0 / area[cell] : 0.0;
-  }
-  return mean;
+  return gridfem::MeansOnCells(*mesh, sourceCell, onTriangles, numberOfCells);
 }
 
 } // namespace gridfem

@@ -22,7 +22,9 @@ Results StitchingResults(const Given& given, const SurfaceOptions& surface,
   }
   else
   {
-    results.arrays["StitchedColors"] = given.MeansOnCells(result.values);
+    const MultiVector means = given.MeansOnCells(result.values);
+    results.arrays["StitchedColors"] =
+      means.array().isNaN().select(given.arrays.at("colors").values, means);
   }
   results.Warn(result.warnings);
   return results;

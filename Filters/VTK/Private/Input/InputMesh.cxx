@@ -310,23 +310,7 @@ std::pair<Id, Id> TrianglesOfCell(const InputMesh& mesh, Id cell)
 
 MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells)
 {
-  const TriangleMesh& surface = *mesh.triangles;
-  MultiVector mean = MultiVector::Zero(cells, onTriangles.cols());
-  std::vector<double> area(cells, 0.0);
-  for (Id t = 0; t < onTriangles.rows(); ++t)
-  {
-    const std::array<Id, 3>& corner = surface.triangles[t];
-    const Vec3& origin = surface.points[corner[0]];
-    const double ofTriangle =
-      0.5 * (surface.points[corner[1]] - origin).cross(surface.points[corner[2]] - origin).norm();
-    mean.row(mesh.sourceCell[t]) += ofTriangle * onTriangles.row(t);
-    area[mesh.sourceCell[t]] += ofTriangle;
-  }
-  for (Id cell = 0; cell < cells; ++cell)
-  {
-    mean.row(cell) *= area[cell] > 0.0 ? 1.0 / area[cell] : 0.0;
-  }
-  return mean;
+  return MeansOnCells(*mesh.triangles, mesh.sourceCell, onTriangles, cells);
 }
 
 } // namespace gridfem

@@ -43,7 +43,7 @@ std::vector<Vec3> ReadPointsLike(const InputMesh& mesh, vtkPolyData* data);
 InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies);
 
 /// Returns the means of values on triangles over the cells they come from, weighted by area. Other
-/// cells have 0.
+/// cells have NaN.
 MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells);
 
 /// Returns the triangles of one cell: indices [first, second) into InputMesh::triangles.

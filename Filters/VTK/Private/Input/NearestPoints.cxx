@@ -35,26 +35,18 @@ void RequireFinitePoints(vtkDataSet* places, const std::string& input)
   }
 }
 
-struct EdgeLengths
+double LongestEdge(const TriangleMesh& mesh)
 {
-  double mean = 0.0;
-  double longest = 0.0;
-};
-
-EdgeLengths EdgeLengthsOf(const TriangleMesh& mesh)
-{
-  EdgeLengths lengths;
+  double square = 0.0;
   for (const auto& corner : mesh.triangles)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const double length = (mesh.points[corner[k]] - mesh.points[corner[(k + 1) % 3]]).norm();
-      lengths.mean += length;
-      lengths.longest = std::max(lengths.longest, length);
+      square =
+        std::max(square, (mesh.points[corner[k]] - mesh.points[corner[(k + 1) % 3]]).squaredNorm());
     }
   }
-  lengths.mean /= 3.0 * std::max(1.0, double(mesh.triangles.size()));
-  return lengths;
+  return std::sqrt(square);
 }
 
 /// Finds the nearest of the points that triangles use.
@@ -85,20 +77,18 @@ public:
     double box[6];
     candidates_->GetBounds(box);
     const double side = std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] });
-    edges_ = EdgeLengthsOf(mesh);
-    far_ = std::max(FarShare * side, edges_.longest);
+    far_ = std::max(FarShare * side, LongestEdge(mesh));
   }
 
   Id NearestTo(const Vec3& place) const { return idOf_[locator_->FindClosestPoint(place.data())]; }
 
   double Between(const Vec3& place, Id point) const { return (mesh_.points[point] - place).norm(); }
+  double Between(Id point, Id other) const { return this->Between(mesh_.points[point], other); }
   double Far() const { return far_; }
-  const EdgeLengths& Edges() const { return edges_; }
 
 private:
   const TriangleMesh& mesh_;
   std::vector<Id> idOf_;
-  EdgeLengths edges_;
   double far_ = 0.0;
   vtkNew<vtkPolyData> candidates_;
   vtkNew<vtkStaticPointLocator> locator_;
@@ -133,37 +123,44 @@ std::vector<Id> NearestOfAll(const UsedPointFinder& finder, vtkDataSet* places,
   if (count > 0)
   {
     std::ostringstream text;
-    text << input << ": " << count << " of " << nearest.size() << (count == 1 ? " is" : " are")
-         << " farther than " << finder.Far() << " from the points of the surface. Point "
-         << farthest << " is the farthest, by " << largest
-         << ". They count at the nearest points of the surface. Leave them out, for example with "
-            "Clip, if they do not belong to it.";
+    text << input << ": " << count << " of its " << nearest.size() << " points "
+         << (count == 1 ? "is" : "are") << " farther than " << finder.Far()
+         << " from all points of the surface. The farthest is point " << farthest << ", at "
+         << largest
+         << ". Each counts at the nearest point of the surface. Remove them, for "
+            "example with Clip, if they do not belong to it.";
     warnings.push_back(text.str());
   }
   return nearest;
 }
 
-/// Adds the mesh points nearest to places between two ends.
-void AddBetween(
-  const UsedPointFinder& finder, const Vec3& begin, const Vec3& end, std::vector<Id>& nearest)
+/// A place on a line, and the mesh point nearest to it.
+struct PlaceOnLine
 {
-  constexpr double MostSteps = 1e5;
-  const double step = 0.5 * finder.Edges().mean;
-  const double length = (end - begin).norm();
-  if (!(length > step) || !(step > 0.0))
+  Vec3 place;
+  Id nearest;
+};
+
+/// Adds the mesh points nearest to places between two ends. Divides the line until its parts have
+/// one nearest point, or are at most half as long as the nearest points are apart: half an edge.
+/// @param divisions  how often the line may be divided
+void AddBetween(const UsedPointFinder& finder, const PlaceOnLine& begin, const PlaceOnLine& end,
+  int divisions, std::vector<Id>& nearest)
+{
+  // All places between two places with the same nearest point have this nearest point, too.
+  if (begin.nearest == end.nearest || divisions == 0 ||
+      (end.place - begin.place).norm() <= 0.5 * finder.Between(begin.nearest, end.nearest))
   {
     return;
   }
-  const int steps = static_cast<int>(std::min(MostSteps, std::ceil(length / step)));
-  for (int k = 1; k < steps; ++k)
+  const Vec3 place = 0.5 * (begin.place + end.place);
+  const PlaceOnLine middle{ place, finder.NearestTo(place) };
+  AddBetween(finder, begin, middle, divisions - 1, nearest);
+  if (finder.Between(place, middle.nearest) <= finder.Far())
   {
-    const Vec3 place = begin + double(k) / steps * (end - begin);
-    const Id point = finder.NearestTo(place);
-    if (finder.Between(place, point) <= finder.Far())
-    {
-      nearest.push_back(point);
-    }
+    nearest.push_back(middle.nearest);
   }
+  AddBetween(finder, middle, end, divisions - 1, nearest);
 }
 
 } // namespace
@@ -178,9 +175,13 @@ std::vector<Id> NearestPoints(const TriangleMesh& mesh, vtkDataSet* places,
 std::vector<Id> NearestPointsAlongLines(const TriangleMesh& mesh, vtkDataSet* places,
   const std::string& input, std::vector<std::string>& warnings)
 {
+  constexpr int MostDivisions = 40;
   RequireFinitePoints(places, input);
   const UsedPointFinder finder(mesh);
   std::vector<Id> nearest = NearestOfAll(finder, places, input, warnings);
+  const auto at = [&](vtkIdType point) {
+    return PlaceOnLine{ PlaceAt(places, point), nearest[static_cast<std::size_t>(point)] };
+  };
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < places->GetNumberOfCells(); ++cell)
   {
@@ -190,8 +191,7 @@ std::vector<Id> NearestPointsAlongLines(const TriangleMesh& mesh, vtkDataSet* pl
       places->GetCellPoints(cell, points);
       for (vtkIdType k = 0; k + 1 < points->GetNumberOfIds(); ++k)
       {
-        AddBetween(finder, PlaceAt(places, points->GetId(k)), PlaceAt(places, points->GetId(k + 1)),
-          nearest);
+        AddBetween(finder, at(points->GetId(k)), at(points->GetId(k + 1)), MostDivisions, nearest);
       }
     }
   }

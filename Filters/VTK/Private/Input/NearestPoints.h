@@ -21,8 +21,8 @@ std::vector<Id> NearestPoints(const TriangleMesh& mesh, vtkDataSet* places,
   const std::string& input, std::vector<std::string>& warnings);
 
 /// Returns the same points, followed by the mesh points nearest to places between the points of
-/// the lines of `places`. These places are at most half a mean edge of the mesh apart. Places far
-/// from the surface do not count, so a line through space does not count there.
+/// the lines of `places`. Neighboring places are at most half as far apart as their nearest points.
+/// Places far from the surface do not count, so a line through space does not count there.
 std::vector<Id> NearestPointsAlongLines(const TriangleMesh& mesh, vtkDataSet* places,
   const std::string& input, std::vector<std::string>& warnings);
 

@@ -26,6 +26,7 @@
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSelector.h"
+#include "vtkVariant.h"
 
 #if VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython
 #include "vtkPythonSelector.h"
@@ -166,9 +167,11 @@ std::vector<char> SelectedOf(vtkDataArray* inside, vtkDataArray* originalIds, vt
     const double id = originalIds ? originalIds->GetComponent(k, 0) : static_cast<double>(k);
     if (!(id >= 0.0 && id < static_cast<double>(inside->GetNumberOfTuples())))
     {
-      throw InvalidInput("The Selection refers to " + std::to_string(inside->GetNumberOfTuples()) +
-                         " points or cells, but the surface names the original id " +
-                         std::to_string(id) + ". Extract the surface again.");
+      throw InvalidInput(
+        "The Selection was made on data with " + std::to_string(inside->GetNumberOfTuples()) +
+        " points or cells, but the surface has the original id " +
+        (originalIds ? originalIds->GetVariantValue(k).ToString() : std::to_string(k)) +
+        ". Make the Selection again on the present input.");
     }
     isSelected[k] = inside->GetComponent(static_cast<vtkIdType>(id), 0) > 0.0;
   }

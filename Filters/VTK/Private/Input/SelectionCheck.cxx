@@ -66,8 +66,8 @@ void RequireSwitch(vtkSelectionNode* node)
   const int value = node->GetProperties()->Get(vtkSelectionNode::CONTAINING_CELLS());
   if (value != 0 && value != 1)
   {
-    throw InvalidInput("The Selection has the value " + std::to_string(value) +
-                       " for its cells that contain points. It must be 0 or 1.");
+    throw InvalidInput("The property CONTAINING_CELLS of the Selection is " +
+                       std::to_string(value) + ". It must be 0 or 1.");
   }
 }
 

@@ -6,11 +6,15 @@
 
 #include "Base/Errors.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -45,7 +49,24 @@ StageKey KeyOf(vtkInformationVector** inputs, int ports, bool weldCoincidentPoin
   return key;
 }
 
-/// Returns the points of a data set on another port. Filters use nothing else of it.
+/// Returns the cells that are lines.
+vtkSmartPointer<vtkCellArray> LinesOf(vtkDataSet* data)
+{
+  auto lines = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    const int type = data->GetCellType(cell);
+    if (type == VTK_LINE || type == VTK_POLY_LINE)
+    {
+      data->GetCellPoints(cell, points);
+      lines->InsertNextCell(points);
+    }
+  }
+  return lines;
+}
+
+/// Returns the points and lines of a data set on another port. Filters use nothing else of it.
 vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(data))
@@ -65,6 +86,7 @@ vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
       points->SetPoint(point, set->GetPoint(point));
     }
     surface->SetPoints(points);
+    surface->SetLines(LinesOf(set));
     surface->GetPointData()->ShallowCopy(set->GetPointData());
     surface->GetFieldData()->ShallowCopy(set->GetFieldData());
   }

@@ -348,8 +348,8 @@ MultiVector PieceSurface::MeansOnCells(const MultiVector& onTriangles, Id cells)
 {
   const RankSpace& space = this->Functions()->Space();
   const MultiVector ofOriginals = space.Copies().RowsOfOriginals(space.Distribution(), onTriangles);
-  return gridfem::MeansOnCells(triangles_, onTriangles, cells) +
-         gridfem::MeansOnCells(copies_, ofOriginals, cells);
+  const MultiVector means = gridfem::MeansOnCells(triangles_, onTriangles, cells);
+  return means.array().isNaN().select(gridfem::MeansOnCells(copies_, ofOriginals, cells), means);
 }
 
 Id PieceSurface::CopiedTriangles() const

@@ -5,7 +5,9 @@
 #include "vtkAlgorithm.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
+#include "vtkInformationDoubleKey.h"
 #include "vtkInformationIdTypeKey.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersionMacros.h"
 
 #include <algorithm>
@@ -21,6 +23,22 @@ vtkInformationIdTypeKey* AbortedAt()
 {
   static auto* const key = vtkInformationIdTypeKey::MakeKey("ABORTED_AT", "vtkSurfaceFEMAlgorithm");
   return key;
+}
+
+/// The time step that was requested at the abort, in the information of the filter.
+vtkInformationDoubleKey* AbortedTimeStep()
+{
+  static auto* const key =
+    vtkInformationDoubleKey::MakeKey("ABORTED_TIME_STEP", "vtkSurfaceFEMAlgorithm");
+  return key;
+}
+
+/// Returns the time step that is requested from the first output. 0 if there is none.
+double RequestedTimeStep(vtkAlgorithm* filter)
+{
+  vtkInformation* output = filter->GetExecutive()->GetOutputInformation(0);
+  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+  return output->Has(key) ? output->Get(key) : 0.0;
 }
 
 /// The time of the last change of the filter or of anything before it, when the pipeline began this
@@ -44,6 +62,7 @@ void ServeAbort(vtkAlgorithm* filter)
     // The abort itself and these marks have changed the filter after the request.
     const vtkMTimeType time = std::max(TimeOfRequest(filter), filter->GetMTime());
     filter->GetInformation()->Set(AbortedAt(), static_cast<vtkIdType>(time));
+    filter->GetInformation()->Set(AbortedTimeStep(), RequestedTimeStep(filter));
   }
 }
 
@@ -51,7 +70,8 @@ bool IsStillAborted(vtkAlgorithm* filter)
 {
   vtkInformation* about = filter->GetInformation();
   const bool isStill = about->Has(AbortedAt()) &&
-                       static_cast<vtkIdType>(TimeOfRequest(filter)) <= about->Get(AbortedAt());
+                       static_cast<vtkIdType>(TimeOfRequest(filter)) <= about->Get(AbortedAt()) &&
+                       about->Get(AbortedTimeStep()) == RequestedTimeStep(filter);
   about->Remove(AbortedAt());
   return isStill;
 }

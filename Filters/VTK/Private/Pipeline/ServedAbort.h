@@ -11,9 +11,9 @@ namespace gridfem
 /// The next run, after a change, is not aborted.
 void ServeAbort(vtkAlgorithm* filter);
 
-/// Whether neither the filter nor anything before it has changed since an abort. ParaView asks for
-/// the output of each port and for the view by itself, and each would run the filter again. Always
-/// false on several ranks, which may differ in it.
+/// Whether neither the filter nor anything before it has changed since an abort, and the same time
+/// is requested. ParaView asks for the output of each port and for the view by itself, and each
+/// would run the filter again. Always false on several ranks, which may differ in it.
 bool IsStillAborted(vtkAlgorithm* filter);
 
 } // namespace gridfem
