@@ -114,7 +114,7 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
       this->Write(input, vtkPolyData::GetData(outputs, 0));
       if (gridfem::Ranks().IsFirst())
       {
-        gridfem::WriteFingerprint(*data.Result->modes, vtkTable::GetData(outputs, 1));
+        gridfem::WriteModeTable(*data.Result, vtkTable::GetData(outputs, 1));
       }
     });
   if (!data.Carried.Misfit().empty())

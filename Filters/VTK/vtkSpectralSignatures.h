@@ -49,7 +49,10 @@
  * - field data: `Converged` (int, 1), if modes were computed.
  *
  * Output port 1 (vtkTable) has a row per mode with `Mode` (int), `Eigenvalue` and `ShapeDNA`
- * (double).
+ * (double). With a FilterType it also has the following columns, with the components of the values:
+ * - `Coefficient` (double): the share of the mode in the values.
+ * - `RemainingError` (double): the root of the integral of the squared error of the best sum of the
+ *   modes up to the row, relative to this number after the constant modes.
  *
  * SetInputArrayToProcess(0, ...) chooses the `ValueArray` to filter: a point array with any number
  * of components. Without it the filter takes the coordinates. The filter uses all shared

@@ -185,7 +185,8 @@ void FindSpectrum(Choice& choice, RandomSurface& surface, Outcome& outcome)
   }
   const Field f = OrdinaryField(choice, *surface.mesh, 1, FieldAssociation::Points);
   outcome.RequireFinite(
-    SumOfModes(modes, ModeShares(*surface.mesh, modes, f.values), 0, 100), "a sum of modes");
+    SumOfModes(modes, ExpandInModes(*surface.mesh, modes, f.values).shares, 0, 100),
+    "a sum of modes");
 }
 
 void FindDistance(Choice& choice, RandomSurface& surface, Outcome& outcome)

@@ -219,6 +219,48 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
   expect(Signatures::BandPass, 8, 1000, nothing);
 }
 
+TEST_F(SpectralSignaturesFilter, TheTableHasCoefficientsAndWhatRemains)
+{
+  auto data = this->WithModes(25);
+  const auto seventh = PointValues(data, "Mode007");
+  const auto third = PointValues(data, "Mode003");
+  for (const double constant : { 0.0, 5.0, 1e9 })
+  {
+    vtkNew<vtkDoubleArray> sum;
+    sum->SetName("sum");
+    for (std::size_t k = 0; k < seventh.size(); ++k)
+    {
+      sum->InsertNextValue(constant + 3.0 * third[k] - 4.0 * seventh[k]);
+    }
+    data->GetPointData()->AddArray(sum);
+    filter->SetInputData(data);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "sum");
+    filter->SetFilterType(Signatures::LowPass);
+    filter->SetLastMode(7);
+    const double rounding = 1e-6 + 1e-15 * constant;
+    EXPECT_LT(Difference(this->Run("Filtered"), Values(sum)), rounding) << constant;
+    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+    const auto column = [&](const char* name)
+    { return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name))); };
+    const auto coefficient = column("Coefficient");
+    const auto remaining = column("RemainingError");
+    ASSERT_GE(remaining.size(), 25u);
+    ASSERT_EQ(coefficient.size(), remaining.size());
+    EXPECT_NEAR(std::abs(coefficient[0]), constant * std::sqrt(4 * M_PI), 1e-2 * constant + 1e-6);
+    for (std::size_t mode = 1; mode < coefficient.size(); ++mode)
+    {
+      EXPECT_NEAR(coefficient[mode],
+        mode == 3   ? 3.0
+        : mode == 7 ? -4.0
+                    : 0.0,
+        10 * rounding)
+        << mode;
+      const double expected = mode < 3 ? 1.0 : mode < 7 ? 0.8 : 0.0;
+      EXPECT_NEAR(remaining[mode], expected, mode < 7 ? 0.01 : 1e-5) << mode << " " << constant;
+    }
+  }
+}
+
 TEST_F(SpectralSignaturesFilter, TheMiddleScaleIsShown)
 {
   const auto all = this->Run("HeatKernelSignature");

@@ -79,6 +79,17 @@ void RequireOnPoints(const GivenField& values)
   }
 }
 
+/// Divides the errors by the errors in one row. An error of 0 stays 0.
+MultiVector RelativeTo(Id row, MultiVector errors)
+{
+  const Eigen::RowVectorXd whole = errors.row(row);
+  for (Id c = 0; c < errors.cols(); ++c)
+  {
+    errors.col(c) *= whole[c] > 0.0 ? 1.0 / whole[c] : 0.0;
+  }
+  return errors;
+}
+
 /// Throws InvalidInput for a band that no mode is in.
 /// @return  the warning about modes that the filter asks for and that do not exist; empty: none
 std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
@@ -214,27 +225,48 @@ void SignatureSolver::UpdateSums(
   surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, mesh, input, options); });
 }
 
-/// Returns the part of the values in the modes that pass.
+/// Computes the part of the values in the modes that pass. A large constant would round the rest
+/// away. It is therefore left out of the expansion, if all of it passes or all of it does not.
 void SignatureSolver::Filter(
   const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options)
 {
   result_.filtered.resize(0, 0);
+  result_.coefficients.resize(0, 0);
+  result_.remaining.resize(0, 0);
   if (options.filterType == ModeFilter::None)
   {
     return;
   }
   const PointModes& modes = *result_.modes;
   const int threads = surface.Threads();
-  const MultiVector values =
+  MultiVector values =
     input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
-  const MultiVector shares = ModeShares(mesh, modes, values, threads, surface.SumsOverProcesses());
   const bool isHigh = options.filterType == ModeFilter::HighPass;
   const int first = options.filterType == ModeFilter::BandPass ? options.firstMode : 0;
   const int last = isHigh ? options.firstMode - 1 : options.lastMode;
+  Eigen::RowVectorXd constants = Eigen::RowVectorXd::Zero(values.cols());
+  if (first == 0 && last + 1 >= CountZeroModes(modes))
+  {
+    constants = LargeConstants(surface, values, UsedPoints(mesh));
+    values.rowwise() -= constants;
+  }
+  // The last column is the constant 1.
+  MultiVector columns(values.rows(), values.cols() + 1);
+  columns << values, MultiVector::Ones(values.rows(), 1);
+  const ModeExpansion expansion =
+    ExpandInModes(mesh, modes, columns, threads, surface.SumsOverProcesses());
+  const MultiVector shares = expansion.shares.leftCols(values.cols());
+  result_.coefficients = shares + expansion.shares.rightCols(1) * constants;
+  result_.remaining =
+    RelativeTo(CountZeroModes(modes) - 1, expansion.remaining.leftCols(values.cols()));
   result_.filtered = SumOfModes(modes, shares, first, last, threads);
   if (isHigh)
   {
     result_.filtered = values - result_.filtered;
+  }
+  else
+  {
+    result_.filtered.rowwise() += constants;
   }
   ClearRows(isReached_, result_.filtered);
 }

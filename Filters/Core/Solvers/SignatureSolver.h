@@ -81,7 +81,12 @@ public:
     std::vector<double> diffusionDistance;
     std::vector<double> biharmonicDistance;
     ///@}
-    MultiVector filtered; // no columns without a filter
+    ///@{ With a filter, else without columns.
+    MultiVector filtered;
+    MultiVector coefficients; // of the modes (rows)
+    MultiVector
+      remaining; // error of the sum up to each mode, relative to the error after constants
+    ///@}
     bool isConverged = true;
     std::vector<std::string> warnings;
   };

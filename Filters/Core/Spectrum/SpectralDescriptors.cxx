@@ -119,20 +119,21 @@ MultiVector CornerRows(const TriangleMesh& mesh, const MultiVector& values, Id b
 }
 
 /// ∫ aᵀb for functions that are linear on every triangle, one column of `values` per function. The
-/// first `count` functions are a, all are b.
+/// first `count` functions are a, all are b. A last row has ∫ b².
 Eigen::MatrixXd Products(const TriangleMesh& mesh, const MultiVector& values, Id count, int threads)
 {
   const Id triangles = static_cast<Id>(mesh.triangles.size());
   const Id part = std::max(TriangleBlock, (triangles + LargestParts - 1) / LargestParts);
   return ParallelSum(
-    triangles, threads, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count, values.cols())),
+    triangles, threads, Eigen::MatrixXd(Eigen::MatrixXd::Zero(count + 1, values.cols())),
     [&](Id begin, Id end)
     {
-      Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, values.cols());
+      Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count + 1, values.cols());
       for (Id t = begin; t < end; t += TriangleBlock)
       {
         const MultiVector rows = CornerRows(mesh, values, t, std::min(end, t + TriangleBlock));
-        sum.noalias() += rows.leftCols(count).transpose() * rows;
+        sum.topRows(count).noalias() += rows.leftCols(count).transpose() * rows;
+        sum.row(count) += rows.colwise().squaredNorm();
       }
       return sum;
     },
@@ -291,7 +292,7 @@ std::vector<double> DiffusionDistance(
   return distance;
 }
 
-MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
+ModeExpansion ExpandInModes(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
   int threads, const DistributedRows* distributed)
 {
   const Id points = static_cast<Id>(mesh.points.size());
@@ -304,7 +305,7 @@ MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const 
   values << modes.values, f;
   Eigen::MatrixXd products = Products(mesh, values, count, threads);
   SumOverProcesses(distributed, products);
-  const Eigen::MatrixXd gram = products.leftCols(count);
+  const Eigen::MatrixXd gram = products.topLeftCorner(count, count);
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   if (factor.info() != Eigen::Success ||
       factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() < SmallestPivot)
@@ -312,7 +313,17 @@ MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const 
     throw InvalidInput("The mesh has too few points to tell " + std::to_string(count) +
                        " modes apart. Use fewer modes or a finer mesh.");
   }
-  return factor.solve(products.rightCols(f.cols()));
+  // The factor makes the modes orthonormal, each to the modes before.
+  const Eigen::MatrixXd shares = factor.matrixL().solve(products.topRightCorner(count, f.cols()));
+  const Eigen::RowVectorXd squares = products.row(count).tail(f.cols());
+  Eigen::RowVectorXd left = (squares - shares.colwise().squaredNorm()).cwiseMax(0.0);
+  ModeExpansion expansion{ factor.matrixU().solve(shares), MultiVector(count, f.cols()) };
+  for (Id mode = count - 1; mode >= 0; --mode)
+  {
+    expansion.remaining.row(mode) = left.cwiseSqrt();
+    left += shares.row(mode).cwiseAbs2();
+  }
+  return expansion;
 }
 
 MultiVector SumOfModes(

@@ -70,14 +70,20 @@ std::vector<double> BiharmonicDistance(
 std::vector<double> DiffusionDistance(
   const PointModes& modes, const std::vector<Id>& sources, double time, int threads = 0);
 
-/// The share of every mode in a function, rows = modes, columns as `f` (rows = points). The
-/// function and the modes are linear on every triangle, and their products are integrated exactly:
-/// c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse is needed because modes are orthonormal as functions of the
-/// space, not as linear functions between the points. A mode has the share 1 in itself and 0 in the
-/// others, to rounding. Throws InvalidInput when the mesh has too few points to tell the modes
-/// apart.
+/// Functions as sums of modes. Rows = modes, columns = functions.
+struct ModeExpansion
+{
+  MultiVector shares;    // of every mode in the best approximation by all modes
+  MultiVector remaining; // root of the integral of the squared error by the modes up to the row
+};
+
+/// Expands functions in modes (rows = points). The functions and the modes are linear on every
+/// triangle, and their products are integrated exactly: c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse is needed
+/// because modes are orthonormal as functions of the space, not as linear functions between the
+/// points. A mode has the share 1 in itself and 0 in the others, to rounding. Throws InvalidInput
+/// when the mesh has too few points to tell the modes apart.
 /// @param distributed  for several processes, each with the mesh of its triangles; collective
-MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
+ModeExpansion ExpandInModes(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
   int threads = 0, const DistributedRows* distributed = nullptr);
 
 /// Σ shares φ over the modes first .. last; an empty sum is 0. Rows = points.

@@ -203,7 +203,7 @@ TEST_F(ModeSums, ComponentsWithoutASourceAreInfinitelyFar)
 
 TEST_F(ModeSums, EveryModeIsItsOwnShare)
 {
-  const MultiVector shares = ModeShares(mesh, modes, modes.values);
+  const MultiVector shares = ExpandInModes(mesh, modes, modes.values).shares;
   EXPECT_LT((shares - MultiVector::Identity(9, 9)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
     10 * Rounding);
   const MultiVector low = SumOfModes(modes, shares, 0, 5);
@@ -214,6 +214,28 @@ TEST_F(ModeSums, EveryModeIsItsOwnShare)
       (low.col(k) - left * modes.values.col(k)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-12);
   }
   EXPECT_EQ(SumOfModes(modes, shares, 3, 2).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 0.0);
+}
+
+/// A function of two modes of norm 1, and of a part of known norm that is orthogonal to all modes.
+TEST_F(ModeSums, WhatRemainsIsTheNormOfThePartsThatFollow)
+{
+  const TriangleMesh sphere = GeodesicSphere(48);
+  const PointModes harmonics = SphericalHarmonics(sphere);
+  MultiVector g(sphere.points.size(), 1); // of the third degree
+  for (std::size_t k = 0; k < sphere.points.size(); ++k)
+  {
+    const Vec3& p = sphere.points[k];
+    g(k, 0) = p[0] * p[1] * p[2];
+  }
+  const MultiVector f = 3.0 * harmonics.values.col(2) + 4.0 * harmonics.values.col(7) + g;
+  const MultiVector remaining = ExpandInModes(sphere, harmonics, f).remaining;
+  const double ofG = std::sqrt(4.0 * M_PI / 105.0); // of x y z on the unit sphere
+  const auto expected = [&](double a, double b) { return std::hypot(a, b, ofG); };
+  EXPECT_NEAR(remaining(0, 0), expected(3.0, 4.0), 0.02);
+  EXPECT_NEAR(remaining(1, 0), expected(3.0, 4.0), 0.02);
+  EXPECT_NEAR(remaining(2, 0), expected(0.0, 4.0), 0.02);
+  EXPECT_NEAR(remaining(6, 0), expected(0.0, 4.0), 0.02);
+  EXPECT_NEAR(remaining(8, 0), ofG, 0.02 * ofG);
 }
 
 TEST_F(ModeSums, TheShareOfTheConstantIsTheMeanOverTheSurface)
@@ -240,7 +262,7 @@ TEST_F(ModeSums, TheShareOfTheConstantIsTheMeanOverTheSurface)
   {
     f(k, 0) = std::pow(strip.points[k][0], 2);
   }
-  EXPECT_NEAR(ModeShares(strip, constant, f)(0, 0), exact, Rounding);
+  EXPECT_NEAR(ExpandInModes(strip, constant, f).shares(0, 0), exact, Rounding);
 }
 
 TEST_F(ModeSums, SameBitsForAnyNumberOfThreads)
@@ -252,7 +274,7 @@ TEST_F(ModeSums, SameBitsForAnyNumberOfThreads)
   {
     f.row(k) << std::exp(sphere.points[k][0]), sphere.points[k][1];
   }
-  EXPECT_TRUE(ModeShares(sphere, many, f, 1) == ModeShares(sphere, many, f, 3));
+  EXPECT_TRUE(ExpandInModes(sphere, many, f, 1).shares == ExpandInModes(sphere, many, f, 3).shares);
   EXPECT_TRUE(HeatKernelSignature(many, { 0.1 }, 1) == HeatKernelSignature(many, { 0.1 }, 3));
   EXPECT_EQ(BiharmonicDistance(many, { 5 }, 1), BiharmonicDistance(many, { 5 }, 3));
 }
@@ -264,7 +286,7 @@ TEST_F(ModeSums, RefusesWhatDoesNotFit)
   EXPECT_THROW(DiffusionDistance(modes, { -1 }, 0.1), InvalidInput);
   EXPECT_THROW(DiffusionDistance(modes, { 1 }, -0.1), InvalidInput);
   EXPECT_THROW(HeatTimes(modes, 0), InvalidInput);
-  EXPECT_THROW(ModeShares(Box(1), modes, modes.values), InvalidInput);
+  EXPECT_THROW(ExpandInModes(Box(1), modes, modes.values), InvalidInput);
   PointModes wrong = modes;
   wrong.eigenvalues[3] = std::nan("");
   EXPECT_THROW(HeatKernelSignature(wrong, { 0.1 }), InvalidInput);
@@ -275,8 +297,8 @@ TEST_F(ModeSums, RefusesWhatDoesNotFit)
 TEST_F(ModeSums, ModesThatThePointsCannotTellApartAreRefused)
 {
   const TriangleMesh octahedron = GeodesicSphere(1); // six points, nine modes
-  EXPECT_THROW(
-    ModeShares(octahedron, SphericalHarmonics(octahedron), MultiVector::Zero(6, 1)), InvalidInput);
+  EXPECT_THROW(ExpandInModes(octahedron, SphericalHarmonics(octahedron), MultiVector::Zero(6, 1)),
+    InvalidInput);
 }
 
 } // namespace

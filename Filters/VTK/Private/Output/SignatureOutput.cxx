@@ -58,8 +58,9 @@ void WriteModeDistances(const SignatureSolver::Result& result, int precision, vt
   output->GetPointData()->SetActiveScalars("BiharmonicDistance");
 }
 
-void WriteFingerprint(const PointModes& modes, vtkTable* table)
+void WriteModeTable(const SignatureSolver::Result& result, vtkTable* table)
 {
+  const PointModes& modes = *result.modes;
   std::vector<int> number;
   std::vector<double> fingerprint;
   for (const double eigenvalue : modes.eigenvalues)
@@ -70,6 +71,11 @@ void WriteFingerprint(const PointModes& modes, vtkTable* table)
   AddColumn(table, "Mode", number);
   AddColumn(table, "Eigenvalue", modes.eigenvalues);
   AddColumn(table, "ShapeDNA", fingerprint);
+  if (result.coefficients.cols() > 0)
+  {
+    table->AddColumn(MakePointArray("Coefficient", result.coefficients, VTK_DOUBLE));
+    table->AddColumn(MakePointArray("RemainingError", result.remaining, VTK_DOUBLE));
+  }
 }
 
 } // namespace gridfem

@@ -17,8 +17,9 @@ void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPo
 /// Adds the point arrays DiffusionDistance and BiharmonicDistance.
 void WriteModeDistances(const SignatureSolver::Result& result, int precision, vtkPolyData* output);
 
-/// Adds the columns Mode, Eigenvalue and ShapeDNA.
-void WriteFingerprint(const PointModes& modes, vtkTable* table);
+/// Adds the columns Mode, Eigenvalue and ShapeDNA, and with a filter Coefficient and
+/// RemainingError.
+void WriteModeTable(const SignatureSolver::Result& result, vtkTable* table);
 
 } // namespace gridfem
 
