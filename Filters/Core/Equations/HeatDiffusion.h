@@ -2,6 +2,7 @@
 #ifndef GridFEM_HeatDiffusion_h
 #define GridFEM_HeatDiffusion_h
 
+#include "Algebra/SparseCholesky.h"
 #include "Equations/EdgeConditions.h"
 #include "Equations/PointConstraints.h"
 #include "Equations/Poisson.h"
@@ -27,6 +28,15 @@ struct DiffusionOptions : EquationOptions
 {
   double timeStep = 1.0; // δ > 0, squared units of length of the space
   TimeScheme scheme = TimeScheme::SecondOrder;
+  /// For many fields: the matrix is also factored, unless it is large or values are held.
+  bool isFactored = false;
+};
+
+/// How the solves of a step are made.
+enum class HeatSolves
+{
+  ByIteration,
+  ByFactor // of the matrix: exact but for rounding, without estimated errors
 };
 
 /// The equation (M + γδ L) U = load of steps of one length, with its hierarchy. It serves any
@@ -50,6 +60,12 @@ public:
   PoissonSolution Solve(const MultiVector& load, const MultiVector& heldValues,
     ConstrainedSolution& met, const Job& job) const;
 
+  /// Whether the matrix has a factor. It has none if it is not positive definite to rounding.
+  bool IsFactored() const { return factor_ != nullptr; }
+
+  /// The same by the factor. Iterates if the residual shows that the factor does not suffice.
+  PoissonSolution SolveByFactor(const MultiVector& load, const Job& job) const;
+
   /// Returns ∫ u b_i for the function u with these coefficients.
   MultiVector IntegralsOf(const MultiVector& coefficients, const Job& job) const;
 
@@ -66,6 +82,7 @@ private:
   // One of the two exists: the hierarchy of M / (γδ) + L, or that with the penalties of held
   // values.
   std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<const SparseCholesky> factor_; // null: none
   std::unique_ptr<ConstrainedHierarchy> constrained_;
 };
 
@@ -88,9 +105,11 @@ public:
   /// @param start       ∫ f b_i of the field at time 0 (LoadOfValues)
   /// @param sources     ∫ s b_i of the heat added per unit of time, as many columns; no rows: none
   /// @param heldValues  a row for each held row of the equation, as many columns
+  /// @param solves      ByFactor needs an equation that IsFactored
   /// Throws InvalidInput when shapes do not fit.
   HeatDiffusion(std::shared_ptr<const HeatEquation> equation, MultiVector start,
-    MultiVector sources = {}, MultiVector heldValues = {});
+    MultiVector sources = {}, MultiVector heldValues = {},
+    HeatSolves solves = HeatSolves::ByIteration);
 
   /// Makes the next step and reports how its solves went. Throws Aborted and then leaves the state
   /// as it was.
@@ -108,6 +127,7 @@ public:
 
 private:
   std::shared_ptr<const HeatEquation> equation_;
+  HeatSolves solves_;
   bool hasStarted_ = false;
   ConstrainedSolution met_;
   MultiVector load_; // ∫ u b_i at the current time

@@ -16,13 +16,16 @@ namespace
 /// once took twice the time per column (32,492 points): their vectors leave the cache.
 constexpr Id PanelColumns = 8;
 
+/// Columns that are solved together by a factor, and the number of columns from which on it pays.
+constexpr Id FactorColumns = 64;
+
 /// Calls body(first column, columns, done, done after it) for all panels of a block.
 template<class Body>
-void ForEachPanel(Id columns, Body&& body)
+void ForEachPanel(Id columns, Body&& body, Id width = PanelColumns)
 {
-  for (Id first = 0; first < columns; first += PanelColumns)
+  for (Id first = 0; first < columns; first += width)
   {
-    const Id count = std::min(PanelColumns, columns - first);
+    const Id count = std::min(width, columns - first);
     body(first, count, double(first) / double(columns), double(first + count) / double(columns));
   }
 }
@@ -205,8 +208,9 @@ void DiffusionSolver::UpdateHierarchy(
   const Surface& surface, const Options& options, const Job& job)
 {
   const double step = StepInSpaceUnits(surface, options);
+  const bool isFactored = !surface.IsShared() && start_.cols() >= FactorColumns;
   StageKey key;
-  key.Add(surface.GetStages().Version(SystemStage)).Add(step).Add(heldPlaces_);
+  key.Add(surface.GetStages().Version(SystemStage)).Add(step).Add(heldPlaces_).Add(isFactored);
   key.Add(KeyOf(result_.equation));
   surface.GetStages().Run(HierarchyStage, key,
     [&]
@@ -214,9 +218,12 @@ void DiffusionSolver::UpdateHierarchy(
       const double unit = surface.Space().UnitLength();
       result_.stepLength = step * unit * unit;
       panels_.clear(); // frees its memory first
+      watched_.reset();
       equation_.reset();
-      equation_ = std::make_shared<const HeatEquation>(
-        surface.SharedSpace(), DiffusionOptions{ result_.equation, step }, held_.rows, job);
+      DiffusionOptions ofSteps{ result_.equation, step };
+      ofSteps.isFactored = isFactored;
+      equation_ =
+        std::make_shared<const HeatEquation>(surface.SharedSpace(), ofSteps, held_.rows, job);
     });
 }
 
@@ -231,6 +238,7 @@ void DiffusionSolver::MakeSteps(const Surface& surface, const Options& options, 
   {
     steps.clear();
     panels_.clear();
+    watched_.reset();
     ofSteps_ = key;
     surface.GetStages().Forget(SolveStage);
   }
@@ -246,42 +254,60 @@ void DiffusionSolver::MakeSteps(const Surface& surface, const Options& options, 
   }
 }
 
+HeatDiffusion DiffusionSolver::PanelAtStart(Id first, Id count, HeatSolves solves) const
+{
+  const auto part = [&](const MultiVector& block)
+  { return block.cols() > 0 ? MultiVector(block.middleCols(first, count)) : MultiVector(); };
+  return HeatDiffusion(equation_, part(start_), part(sources_), part(held_.values), solves);
+}
+
 /// Makes the next step of all panels.
 /// @param goesOn  whether more steps may follow; a single panel is always kept
 DiffusionSolver::Step DiffusionSolver::MakeStep(const Surface& surface, bool goesOn, const Job& job)
 {
+  const bool isFactored = equation_->IsFactored();
+  const double watching = isFactored ? 0.1 : 0.0;
   Step step;
+  step.report = SolveReport::Solved();
+  step.accuracy = SolutionAccuracy::Exact();
+  std::optional<HeatDiffusion> watched;
+  if (isFactored)
+  {
+    watched = watched_ ? *watched_ : this->PanelAtStart(0, PanelColumns, HeatSolves::ByIteration);
+    step.report = watched->Advance(job.Part(0.0, watching));
+    step.accuracy = watched->Accuracy();
+  }
+  const Id width = isFactored ? FactorColumns : PanelColumns;
   std::vector<HeatDiffusion> after;
-  ForEachPanel(start_.cols(),
+  ForEachPanel(
+    start_.cols(),
     [&](Id first, Id count, double done, double doneAfter)
     {
-      const auto part = [&](const MultiVector& block)
-      { return block.cols() > 0 ? MultiVector(block.middleCols(first, count)) : MultiVector(); };
-      HeatDiffusion heat =
-        panels_.empty() ? HeatDiffusion(equation_, part(start_), part(sources_), part(held_.values))
-                        : panels_[static_cast<std::size_t>(first / PanelColumns)];
-      SolveReport report = heat.Advance(job.Part(done, doneAfter));
+      HeatDiffusion heat = panels_.empty()
+                             ? this->PanelAtStart(first, count,
+                                 isFactored ? HeatSolves::ByFactor : HeatSolves::ByIteration)
+                             : panels_[static_cast<std::size_t>(first / width)];
+      const auto share = [watching](double part) { return watching + (1.0 - watching) * part; };
+      KeepWorse(heat.Advance(job.Part(share(done), share(doneAfter))), step.report);
+      KeepWorse(heat.Accuracy(), step.accuracy);
       const MultiVector atPoints = surface.ValuesAtPoints(heat.Coefficients());
       if (first == 0)
       {
-        step = { MultiVector(atPoints.rows(), start_.cols()), std::move(report), heat.Accuracy(),
-          heat.Held() };
+        step.met = heat.Held();
+        step.atPoints.resize(atPoints.rows(), start_.cols());
       }
-      else
-      {
-        KeepWorse(std::move(report), step.report);
-        KeepWorse(heat.Accuracy(), step.accuracy);
-        KeepWorse(heat.Held(), step.met);
-      }
+      KeepWorse(heat.Held(), step.met);
       step.atPoints.middleCols(first, count) =
         atPoints.rowwise() + constants_.segment(first, count);
-      if (goesOn || start_.cols() <= PanelColumns)
+      if (goesOn || start_.cols() <= width)
       {
         after.push_back(std::move(heat));
       }
-    });
+    },
+    width);
   step.accuracy.largest = surface.Largest(step.accuracy.largest);
   panels_ = std::move(after);
+  watched_ = panels_.empty() ? std::nullopt : std::move(watched);
   return step;
 }
 

@@ -7,6 +7,7 @@
 #include "Solvers/SurfaceFields.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ double TimeOfSigma(double sigma);         // t = sigma² / 2
 /// Solves the heat equation du/dt = Δu + s. It keeps the steps: more steps of the same length
 /// continue from the last one. Values that change on the same surface, as from frame to frame of a
 /// series, repeat neither functions nor hierarchy. Many components are solved a few at a time.
+/// For 64 components or more, the matrix is factored (HeatEquation). The estimated errors are then
+/// the errors of the first eight components.
 class DiffusionSolver
 {
 public:
@@ -102,6 +105,7 @@ private:
   void UpdateHierarchy(const Surface& surface, const Options& options, const Job& job);
   void MakeSteps(const Surface& surface, const Options& options, const Job& job);
   Step MakeStep(const Surface& surface, bool goesOn, const Job& job);
+  HeatDiffusion PanelAtStart(Id first, Id count, HeatSolves solves) const;
 
   Eigen::RowVectorXd constants_; // that the start, held values and solutions lack
   MultiVector start_;
@@ -109,7 +113,8 @@ private:
   HeldValues held_;
   std::int64_t heldPlaces_ = 0; // changes with the places of held values
   std::shared_ptr<const HeatEquation> equation_;
-  std::vector<HeatDiffusion> panels_; // after the last step; none if it cannot be continued
+  std::vector<HeatDiffusion> panels_;    // after the last step; none if it cannot be continued
+  std::optional<HeatDiffusion> watched_; // some columns by iteration, beside panels by the factor
   StageKey ofSteps_;
   Result result_;
 };

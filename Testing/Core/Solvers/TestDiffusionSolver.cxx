@@ -394,3 +394,69 @@ TEST(DiffusionSolver, RefusesNoTimeAndAnotherNumberOfComponents)
   input.source = GivenField::Of("s", { FieldAssociation::Points, PointCoordinates(*mesh) });
   EXPECT_THROW(DiffusionSolver::Solve(mesh, input, For(0.1, 1), InWorldUnits(4)), InvalidInput);
 }
+
+/// Solves by the factor are exact, so that a tight iteration has the same columns.
+TEST(DiffusionSolver, ManyColumnsAreThoseOfAFewAtATime)
+{
+  constexpr Id Columns = 70; // more than one panel of the factor
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(12));
+  const MultiVector all = Series(*mesh, Columns, 0).read(NaNs::Refused).values;
+  for (const FunctionKind kind : { FunctionKind::Grid, FunctionKind::Hats })
+  {
+    SurfaceOptions surface = InWorldUnits(4);
+    surface.choice.kind = kind;
+    const DiffusionSolver::Options options = For(0.05, 3);
+    const auto smoothed = [&](const MultiVector& values, int threads)
+    {
+      DiffusionSolver::Input input;
+      input.values = GivenField::Of("f", { FieldAssociation::Points, values });
+      surface.space.threads = threads;
+      const auto result = DiffusionSolver::Solve(mesh, input, options, surface);
+      EXPECT_TRUE(result.steps.back().report.converged);
+      EXPECT_EQ(result.steps.size(), 3u);
+      return result.steps.back().atPoints;
+    };
+    const MultiVector many = smoothed(all, 1);
+    EXPECT_TRUE(smoothed(all, 3) == many); // the same bits
+    for (const Id first : { Id{ 0 }, Id{ 60 } })
+    {
+      const MultiVector few = smoothed(all.middleCols(first, 5), 1);
+      const double apart =
+        (few - many.middleCols(first, 5)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      EXPECT_LT(apart, 1e-8);
+    }
+  }
+}
+
+TEST(DiffusionSolver, ManyColumnsGoOnFromTheLastStep)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  DiffusionSolver::Input input;
+  input.values = Series(*mesh, 130, 0);
+  const DiffusionSolver::Result atOnce =
+    DiffusionSolver::Solve(mesh, input, For(0.04, 4), InWorldUnits(4));
+  Stages stages;
+  LocalSurface surface(stages, mesh, InWorldUnits(4));
+  DiffusionSolver solver;
+  solver.Update(surface, input, For(0.02, 2), {});
+  const DiffusionSolver::Result& result = solver.Update(surface, input, For(0.04, 4), {});
+  ASSERT_EQ(result.steps.size(), 4u);
+  EXPECT_TRUE(result.steps.back().atPoints == atOnce.steps.back().atPoints);
+  EXPECT_EQ(stages.Runs("Solve"), 4);
+}
+
+TEST(DiffusionSolver, HeldValuesOfManyColumnsStay)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  DiffusionSolver::Input input;
+  input.values = Series(*mesh, 70, 0);
+  const MultiVector values = input.values.read(NaNs::Refused).values;
+  input.constraints.property = "Mask";
+  input.constraints.find = [&] { return PointValues{ { 5 }, values.row(5) }; };
+  const DiffusionSolver::Result result =
+    DiffusionSolver::Solve(mesh, input, For(0.05, 1), InWorldUnits(4));
+  const double apart = (result.steps.back().atPoints.row(5) - values.row(5))
+                         .cwiseAbs()
+                         .maxCoeff<Eigen::PropagateNaN>();
+  EXPECT_LT(apart, 1e-6);
+}
