@@ -1,9 +1,12 @@
 #include "Equations/Kriging.h"
 
 #include "Base/Errors.h"
+#include "Base/NormalNumbers.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <utility>
 
 namespace gridfem
@@ -44,6 +47,14 @@ PointCovariances::PointCovariances(const MaternField& field, SparseMatrix rows, 
   betweenPoints_ = 0.5 * (betweenPoints_ + betweenPoints_.transpose()).eval();
 }
 
+double PointCovariances::EstimateMemory(Id points, Id functions)
+{
+  const double n = double(points);
+  const double kept = points <= MostKept ? n : 0.0;
+  constexpr double Matrices = 5.0; // of the points: their covariances, factor, and temporaries
+  return sizeof(double) * (kept * double(functions) + Matrices * n * n);
+}
+
 FieldSamples PointCovariances::ToCoefficients(const MultiVector& weights, const Job& job) const
 {
   if (toCoefficients_.cols() > 0)
@@ -66,9 +77,9 @@ KrigingWeights::KrigingWeights(Eigen::MatrixXd covariance) : factor_(std::move(c
 {
   if (factor_.info() != Eigen::Success || factor_.matrixLLT().hasNaN())
   {
-    throw InvalidInput("The covariances of the observations are not positive definite. A smaller "
-                       "Tolerance makes them more accurate. A larger Observation Noise, or "
-                       "observations that are farther apart, need less accuracy.");
+    throw InvalidInput("The covariances of the observations are not positive definite. Raise "
+                       "Observation Noise, thin out observations that lie close together, or set "
+                       "Tolerance below 1e-9.");
   }
   ones_ = factor_.solve(Eigen::VectorXd::Ones(factor_.rows()));
 }
@@ -102,14 +113,48 @@ KrigingWeights::LeaveOneOut KrigingWeights::Validate(const Eigen::VectorXd& obse
   return result;
 }
 
+/// The determinant of the covariance of the differences is |C| 1ᵀ C⁻¹ 1.
 double KrigingWeights::LogLikelihood(const Eigen::VectorXd& observations) const
 {
   const double pi = std::acos(-1.0);
   const Prediction prediction = this->Of(observations);
   const double squares =
     prediction.weights.col(0).dot((observations.array() - prediction.mean[0]).matrix());
-  const double logOfDeterminant = 2.0 * factor_.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (squares + logOfDeterminant + double(observations.size()) * std::log(2.0 * pi));
+  const double logOfDeterminant =
+    2.0 * factor_.matrixLLT().diagonal().array().log().sum() + std::log(ones_.sum());
+  const double differences = double(observations.size()) - 1.0;
+  return -0.5 * (squares + logOfDeterminant + differences * std::log(2.0 * pi));
+}
+
+NormalErrors::NormalErrors(const TriangleMesh& mesh, const std::vector<Id>& points)
+{
+  std::map<std::uint64_t, std::uint64_t> count;
+  for (const Id point : points)
+  {
+    std::uint64_t number = 0;
+    for (const double coordinate : mesh.points[point])
+    {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &coordinate, sizeof(bits));
+      number = NormalNumbers::Mixed(number + bits);
+    }
+    numbers_.push_back(NormalNumbers::Mixed(number + count[number]++) / 2);
+  }
+}
+
+MultiVector NormalErrors::Sample(std::uint64_t seed, Id first, Id count) const
+{
+  MultiVector errors(static_cast<Id>(numbers_.size()), count);
+  for (Id c = 0; c < count; ++c)
+  {
+    // Another seed than that of the fields.
+    const NormalNumbers series(NormalNumbers::Mixed(seed), static_cast<std::uint64_t>(first + c));
+    for (std::size_t k = 0; k < numbers_.size(); ++k)
+    {
+      errors(static_cast<Id>(k), c) = series.Pair(numbers_[k])[0];
+    }
+  }
+  return errors;
 }
 
 } // namespace gridfem

@@ -4,10 +4,13 @@
 
 #include "Algebra/SparseMatrix.h"
 #include "Equations/MaternField.h"
+#include "Grid/TriangleMesh.h"
 
 #include <Eigen/Cholesky>
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace gridfem
 {
@@ -22,6 +25,9 @@ public:
   /// @param rows   RowsAtPoints of the points
   /// Throws InvalidInput if the columns of the rows are not the functions, and Aborted.
   PointCovariances(const MaternField& field, SparseMatrix rows, const Job& job = {});
+
+  /// Bytes for this number of points, with the factors of KrigingWeights.
+  static double EstimateMemory(Id points, Id functions);
 
   /// A S Aᵀ, symmetric.
   const Eigen::MatrixXd& BetweenPoints() const { return betweenPoints_; }
@@ -75,12 +81,32 @@ public:
   };
   LeaveOneOut Validate(const Eigen::VectorXd& observations) const;
 
-  /// The logarithm of the likelihood of the observations, with the most likely mean.
+  /// The logarithm of the restricted likelihood of the observations: the density of their
+  /// differences from any one of them. A constant that is added to all covariances changes neither
+  /// this density nor a prediction. [Harville: Bayesian inference for variance components using
+  /// only error contrasts, 1974]
   double LogLikelihood(const Eigen::VectorXd& observations) const;
 
 private:
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd ones_; // C⁻¹ 1
+};
+
+/// Normal numbers for the errors of observations. They depend on the coordinates, so that the order
+/// of the mesh changes no sample, and differ for several observations of one place.
+class NormalErrors
+{
+public:
+  NormalErrors() = default;
+
+  /// @param points  the observed points of the mesh
+  NormalErrors(const TriangleMesh& mesh, const std::vector<Id>& points);
+
+  /// Returns a column for each of the samples `first` .. `first` + `count` - 1 of a seed.
+  MultiVector Sample(std::uint64_t seed, Id first, Id count) const;
+
+private:
+  std::vector<std::uint64_t> numbers_; // per observation
 };
 
 } // namespace gridfem

@@ -74,11 +74,35 @@ FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const J
   return samples;
 }
 
+/// The areas are the sums of the functions' integrals, because the functions add up to 1.
+std::vector<double> MaternField::DeviationsOfMeans(const Job& job) const
+{
+  const double pi = std::acos(-1.0);
+  const Components components = space_->ComponentsOf(0, job);
+  MultiVector integrals;
+  Multiply(mass_, MultiVector::Ones(mass_.rows, 1), integrals, job.threads);
+  std::vector<double> areas(components.count, 0.0);
+  for (Id function = 0; function < integrals.rows(); ++function)
+  {
+    areas[components.ofFunction[function]] += integrals(function, 0);
+  }
+  std::vector<double> deviations;
+  for (const double area : areas)
+  {
+    deviations.push_back(std::sqrt(4.0 * pi * options_.smoothness / area) / options_.kappa);
+  }
+  return deviations;
+}
+
+double MaternField::CovarianceTolerance() const
+{
+  return std::min(options_.solve.tolerance, 1e-9);
+}
+
 FieldSamples MaternField::Covariances(MultiVector load, const Job& job) const
 {
-  constexpr double Tolerance = 1e-9; // dense systems of covariances amplify errors
-  FieldSamples samples = this->Solve(
-    std::move(load), options_.smoothness + 1, std::min(options_.solve.tolerance, Tolerance), job);
+  FieldSamples samples =
+    this->Solve(std::move(load), options_.smoothness + 1, this->CovarianceTolerance(), job);
   samples.coefficients *= this->Scale() * this->Scale();
   return samples;
 }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace gridfem
 {
@@ -43,9 +44,17 @@ public:
   /// threads. Throws Aborted.
   FieldSamples Sample(std::uint64_t seed, Id first, Id count, const Job& job = {}) const;
 
+  /// The standard deviation of the mean of a sample over each connected component. On a component
+  /// of area A it is √(4πν / A) / κ. If it is not small beside 1, the samples on this component
+  /// have a standard deviation above 1.
+  std::vector<double> DeviationsOfMeans(const Job& job = {}) const;
+
+  /// The tolerance of the solves of Covariances. Dense systems of covariances amplify errors.
+  double CovarianceTolerance() const;
+
   /// Returns S b for the covariance S of the coefficients of Sample. If the load b is the row of a
   /// point, S b has the covariances of all coefficients with the field at this point. It takes
-  /// ν + 1 solves, to a tolerance of 1e-9 or less. Same bits for any number of threads. Throws
+  /// ν + 1 solves, to CovarianceTolerance. Same bits for any number of threads. Throws
   /// InvalidInput unless the load has a row for each function, and Aborted.
   FieldSamples Covariances(MultiVector load, const Job& job = {}) const;
 

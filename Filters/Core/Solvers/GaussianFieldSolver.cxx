@@ -1,16 +1,12 @@
 #include "Solvers/GaussianFieldSolver.h"
 
 #include "Base/Errors.h"
-#include "Base/NormalNumbers.h"
+#include "Distance/NearestSource.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <map>
 #include <sstream>
 #include <utility>
 
@@ -33,10 +29,22 @@ void RequireSampling(const GaussianFieldSolver::Options& options, bool isObserve
   {
     throw InvalidInput("Standard Deviation is 0. It must be above 0 to predict from observations.");
   }
-  if (options.statistics && options.numberOfSamples < 2)
-  {
-    throw InvalidInput("Statistics needs a Number Of Samples of 2 or more.");
-  }
+}
+
+Id NumberOfSamples(const GaussianFieldSolver::Options& options)
+{
+  return options.statistics && options.numberOfSamples == 1
+           ? GaussianFieldSolver::SamplesOfStatistics
+           : options.numberOfSamples;
+}
+
+/// The memory for samples at all points. The caller copies them.
+/// @param kept  bytes of the result that they replace
+MemoryNeed NeedOfSamples(Id points, Id samples, double kept)
+{
+  return { 2.0 * sizeof(double) * double(points) * double(samples) - kept,
+    "Number Of Samples " + std::to_string(samples) + " at " + std::to_string(points) + " points",
+    "Choose fewer samples, or Statistics." };
 }
 
 /// A range below four distances of functions loses 5 % of the variance or more.
@@ -51,6 +59,47 @@ std::vector<std::string> WarningsOfResolution(double range, double spacing)
   text << "The Range is only " << range / spacing << " times the distance between functions. The "
        << "field is therefore too smooth, and its standard deviation too small. A larger Depth, or "
           "a finer mesh with hat functions, resolves it.";
+  return { text.str() };
+}
+
+MemoryNeed NeedOfObservations(Id points, Id functions)
+{
+  return { PointCovariances::EstimateMemory(points, functions),
+    "The prediction from " + std::to_string(points) + " observations with " +
+      std::to_string(functions) + " basis functions",
+    "Choose fewer observations or a smaller Depth." };
+}
+
+/// On a component that is small beside the range, the mean of a sample varies too much. At the
+/// limit the standard deviation on a sphere is 7 % too large. Predictions do not depend on a
+/// constant of the whole field.
+std::vector<std::string> WarningsOfSize(
+  const std::vector<double>& deviationsOfMeans, bool isPredicted)
+{
+  constexpr double Most = 0.63; // the range is half the square root of the area
+  const auto large = std::count_if(deviationsOfMeans.begin(), deviationsOfMeans.end(),
+    [](double deviation) { return !(deviation <= Most); });
+  const bool isOne = deviationsOfMeans.size() == 1;
+  if (large == 0 || (isOne && isPredicted))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "The Range is large beside ";
+  if (isOne)
+  {
+    text << "the surface";
+  }
+  else
+  {
+    text << large << " of " << deviationsOfMeans.size() << " connected components";
+  }
+  text << ". The samples therefore vary by more than Standard Deviation: their mean over "
+       << (isOne ? "the surface" : "such a component") << " alone varies by "
+       << (isOne ? "" : "up to ")
+       << *std::max_element(deviationsOfMeans.begin(), deviationsOfMeans.end())
+       << " times Standard Deviation. Choose a Range below half of the square root of the area"
+       << (isOne ? "." : ", or leave fragments out with the filter Connectivity.");
   return { text.str() };
 }
 
@@ -72,17 +121,21 @@ struct Sums
   }
 
   /// Mean and standard deviation. The fields have mean 0, so the difference loses no digits.
-  MultiVector Statistics(int samples) const
+  MultiVector Statistics(Id samples) const
   {
     MultiVector result(first.size(), 2);
-    result.col(0) = first / samples;
+    result.col(0) = first / double(samples);
     const Eigen::ArrayXd squares = second.array() - first.array() * result.col(0).array();
-    result.col(1) = (squares.isNaN().select(squares, squares.max(0.0)) / (samples - 1)).sqrt();
+    result.col(1) =
+      (squares.isNaN().select(squares, squares.max(0.0)) / double(samples - 1)).sqrt();
     return result;
   }
 
   /// The standard deviation of samples whose mean is known to be 0.
-  Eigen::VectorXd DeviationFromZero(int samples) const { return (second.array() / samples).sqrt(); }
+  Eigen::VectorXd DeviationFromZero(Id samples) const
+  {
+    return (second.array() / double(samples)).sqrt();
+  }
 };
 
 /// Removes points that no function reaches.
@@ -114,6 +167,10 @@ void RequireObservations(const PointValues& observed)
   {
     throw InvalidInput("No observation is at a point of the surface.");
   }
+  if (!observed.values.allFinite())
+  {
+    throw InvalidInput("There is an observation that is not finite.");
+  }
   constexpr Id Most = GaussianFieldSolver::MostObservations;
   if (observed.values.rows() > Most)
   {
@@ -123,49 +180,11 @@ void RequireObservations(const PointValues& observed)
   }
 }
 
-/// Returns a number for the noise of each observed point. It depends on the coordinates, so that
-/// the order of the mesh changes no sample, and differs for several observations of one place.
-std::vector<std::uint64_t> NumbersOfPlaces(const TriangleMesh& mesh, const std::vector<Id>& points)
-{
-  std::map<std::uint64_t, std::uint64_t> count;
-  std::vector<std::uint64_t> numbers;
-  for (const Id point : points)
-  {
-    std::uint64_t number = 0;
-    for (const double coordinate : mesh.points[point])
-    {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &coordinate, sizeof(bits));
-      number = NormalNumbers::Mixed(number + bits);
-    }
-    numbers.push_back(NormalNumbers::Mixed(number + count[number]++) / 2);
-  }
-  return numbers;
-}
-
 /// The standard deviation of errors in the covariance.
 double NoiseOf(const GaussianFieldSolver::Options& options)
 {
   return std::max(
     options.observationNoise, GaussianFieldSolver::LeastNoise * options.standardDeviation);
-}
-
-/// Normal numbers for the errors of observations: a column for each sample.
-MultiVector Noise(
-  const std::vector<std::uint64_t>& numbers, std::uint64_t seed, Id firstSample, Id count)
-{
-  MultiVector noise(static_cast<Id>(numbers.size()), count);
-  for (Id c = 0; c < count; ++c)
-  {
-    // Another seed than that of the fields.
-    const NormalNumbers series(
-      NormalNumbers::Mixed(seed), static_cast<std::uint64_t>(firstSample + c));
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-    {
-      noise(static_cast<Id>(k), c) = series.Pair(numbers[k])[0];
-    }
-  }
-  return noise;
 }
 
 } // namespace
@@ -183,6 +202,11 @@ const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
   RequireSampling(options, static_cast<bool>(input.observations));
   surface.Prepare(job.progress.Part(0.0, 0.2));
   RequireFirstDegree(surface.UsedOptions().choice.kind, "Random fields");
+  if (!options.statistics)
+  {
+    surface.Require(NeedOfSamples(static_cast<Id>(surface.Mesh().points.size()),
+      options.numberOfSamples, sizeof(double) * double(result_.atPoints.size())));
+  }
   this->UpdateField(surface, options, { surface.Threads(), job.progress.Part(0.2, 0.3) });
   this->TakeObservations(surface, input);
   this->UpdateCovariances(surface, { surface.Threads(), job.progress.Part(0.3, 0.6) });
@@ -198,13 +222,17 @@ const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
     [&]
     {
       result_ = {};
-      result_.report = SolveReport::Solved();
+      ofSamples_ = SolveReport::Solved();
+      ofCovariances_ = SolveReport::Solved();
       weights_.reset();
       if (covariances_)
       {
         this->Predict(surface, options, ofSolves.Part(0.0, 0.1));
       }
       this->Sample(surface, options, ofSolves.Part(covariances_ ? 0.1 : 0.0, 1.0));
+      result_.report = ofSamples_;
+      KeepWorse(ofCovariances_, result_.report);
+      result_.warnings = this->Warnings(options);
     });
   job.Check(1.0);
   return result_;
@@ -228,8 +256,9 @@ void GaussianFieldSolver::UpdateField(
       covariances_.reset(); // frees their memory first
       field_.reset();
       field_ = std::make_unique<const MaternField>(surface.WholeSpace(), ofField, job);
-      warnings_ = WarningsOfResolution(
+      resolutionWarnings_ = WarningsOfResolution(
         range, std::sqrt(surface.Area() / double(surface.Space().NumberOfFunctions(0))));
+      deviationsOfMeans_ = field_->DeviationsOfMeans(surface.Threads());
     });
 }
 
@@ -238,10 +267,12 @@ void GaussianFieldSolver::TakeObservations(const Surface& surface, const Input& 
   observed_ = {};
   if (input.observations)
   {
-    observed_ = Reached(input.observations.find(), surface.PointsWithFunctions());
+    const PointValues given = input.observations.find();
+    RequireUsed("Observations", given.points, surface.Mesh());
+    observed_ = Reached(given, surface.PointsWithFunctions());
     RequireObservations(observed_);
   }
-  noiseNumbers_ = NumbersOfPlaces(surface.Mesh(), observed_.points);
+  errors_ = NormalErrors(surface.Mesh(), observed_.points);
 }
 
 void GaussianFieldSolver::UpdateCovariances(const Surface& surface, const Job& job)
@@ -259,6 +290,8 @@ void GaussianFieldSolver::UpdateCovariances(const Surface& surface, const Job& j
     [&]
     {
       covariances_.reset(); // frees their memory first
+      surface.Require(NeedOfObservations(
+        static_cast<Id>(observed_.points.size()), surface.Space().NumberOfFunctions(0)));
       covariances_ = std::make_unique<const PointCovariances>(
         *field_, surface.WholeSpace()->RowsAtPoints(observed_.points), job);
     });
@@ -276,16 +309,18 @@ void GaussianFieldSolver::Predict(const Surface& surface, const Options& options
   Prediction& prediction = result_.prediction;
   prediction.mean = surface.ValuesAtPoints(deviation.coefficients).col(0).array() + weights.mean[0];
   const KrigingWeights::LeaveOneOut others = weights_->Validate(observed_.values.col(0));
-  prediction.leaveOneOutError.setConstant(
-    prediction.mean.size(), std::numeric_limits<double>::quiet_NaN());
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(prediction.mean.size());
+  Eigen::ArrayXd count = sum;
   for (std::size_t k = 0; k < observed_.points.size(); ++k)
   {
-    prediction.leaveOneOutError[observed_.points[k]] = others.error[static_cast<Id>(k)];
+    sum[observed_.points[k]] += others.error[static_cast<Id>(k)];
+    count[observed_.points[k]] += 1.0;
   }
+  prediction.leaveOneOutError = sum / count; // NaN without an observation
   prediction.leaveOneOutRatio = others.ratio;
   prediction.logLikelihood = weights_->LogLikelihood(observed_.values.col(0));
-  KeepWorse(covariances_->Report(), result_.report);
-  KeepWorse(std::move(deviation.report), result_.report);
+  KeepWorse(covariances_->Report(), ofCovariances_);
+  KeepWorse(std::move(deviation.report), ofCovariances_);
 }
 
 /// Returns samples of mean 0. With observations, they are samples of the error of the prediction: a
@@ -297,7 +332,7 @@ MultiVector GaussianFieldSolver::SomeSamples(
   const auto seed = static_cast<std::uint64_t>(options.seed);
   FieldSamples samples =
     field_->Sample(seed, first, count, job.Part(0.0, covariances_ ? 0.5 : 1.0));
-  KeepWorse(std::move(samples.report), result_.report);
+  KeepWorse(std::move(samples.report), ofSamples_);
   MultiVector& coefficients = samples.coefficients;
   coefficients *= options.standardDeviation;
   if (!covariances_)
@@ -306,11 +341,11 @@ MultiVector GaussianFieldSolver::SomeSamples(
   }
   const KrigingWeights::Prediction weights =
     weights_->Of(covariances_->AtPoints(coefficients, job.threads) +
-                 options.observationNoise * Noise(noiseNumbers_, seed, first, count));
+                 options.observationNoise * errors_.Sample(seed, first, count));
   const double variance = options.standardDeviation * options.standardDeviation;
   FieldSamples deviation =
     covariances_->ToCoefficients(variance * weights.weights, job.Part(0.5, 1.0));
-  KeepWorse(std::move(deviation.report), result_.report);
+  KeepWorse(std::move(deviation.report), ofCovariances_);
   coefficients -= deviation.coefficients;
   return surface.ValuesAtPoints(coefficients).rowwise() - weights.mean;
 }
@@ -319,7 +354,7 @@ void GaussianFieldSolver::Sample(const Surface& surface, const Options& options,
 {
   const Eigen::VectorXd& mean = result_.prediction.mean;
   Sums sums;
-  const Id all = options.numberOfSamples;
+  const Id all = NumberOfSamples(options);
   for (Id first = 0; first < all; first += SamplesAtOnce)
   {
     const Id count = std::min(SamplesAtOnce, all - first);
@@ -343,17 +378,32 @@ void GaussianFieldSolver::Sample(const Surface& surface, const Options& options,
   if (options.statistics && covariances_)
   {
     result_.atPoints.resize(mean.size(), 2);
-    result_.atPoints << mean, sums.DeviationFromZero(options.numberOfSamples);
+    result_.atPoints << mean, sums.DeviationFromZero(all);
   }
   else if (options.statistics)
   {
-    result_.atPoints = sums.Statistics(options.numberOfSamples);
+    result_.atPoints = sums.Statistics(all);
   }
-  result_.warnings = warnings_;
-  if (!result_.report.converged)
+}
+
+std::vector<std::string> GaussianFieldSolver::Warnings(const Options& options) const
+{
+  std::vector<std::string> warnings = resolutionWarnings_;
+  for (const std::string& warning :
+    WarningsOfSize(deviationsOfMeans_, static_cast<bool>(covariances_)))
   {
-    result_.warnings.push_back(WarningOf(result_.report, options.equation.solve.tolerance));
+    warnings.push_back(warning);
   }
+  if (!ofSamples_.converged)
+  {
+    warnings.push_back(WarningOf(ofSamples_, options.equation.solve.tolerance));
+  }
+  if (!ofCovariances_.converged)
+  {
+    warnings.push_back("Covariances of observations are solved to a Tolerance of 1e-9 or less. " +
+                       WarningOf(ofCovariances_, field_->CovarianceTolerance()));
+  }
+  return warnings;
 }
 
 GaussianFieldSolver::Result GaussianFieldSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,

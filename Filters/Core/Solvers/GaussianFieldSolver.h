@@ -9,7 +9,6 @@
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
 
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -33,7 +32,9 @@ public:
     double standardDeviation = 1.0;
     int seed = 1;
     int numberOfSamples = 1;
-    bool statistics = false; // mean and standard deviation of the samples, instead of the samples
+    /// Mean and standard deviation of the samples, instead of the samples. A single sample has no
+    /// standard deviation; its number stands for SamplesOfStatistics.
+    bool statistics = false;
     /// Standard deviation of the errors of observations, at least LeastNoise of that of the field.
     double observationNoise = 0.0;
 
@@ -55,6 +56,8 @@ public:
   /// they have errors of this fraction of the standard deviation.
   static constexpr double LeastNoise = 1e-3;
 
+  static constexpr int SamplesOfStatistics = 100;
+
   /// Their covariances are a dense matrix.
   static constexpr Id MostObservations = 4000;
 
@@ -70,9 +73,9 @@ public:
   {
     Eigen::VectorXd mean;             // at points; empty without observations
     Eigen::VectorXd leaveOneOutError; // at points: observation minus its prediction from all
-                                      // others; NaN at other points
+                                      // others; the mean of several; NaN at other points
     double leaveOneOutRatio = 0.0;    // KrigingWeights::LeaveOneOut
-    double logLikelihood = 0.0;       // of the observations
+    double logLikelihood = 0.0;       // KrigingWeights::LogLikelihood
   };
 
   struct Result
@@ -104,13 +107,17 @@ private:
   void Sample(const Surface& surface, const Options& options, const Job& job);
   MultiVector SomeSamples(
     const Surface& surface, const Options& options, Id first, Id count, const Job& job);
+  std::vector<std::string> Warnings(const Options& options) const;
 
   std::unique_ptr<const MaternField> field_;
   PointValues observed_;                                // empty without observations
-  std::vector<std::uint64_t> noiseNumbers_;             // of the observed points
+  NormalErrors errors_;                                 // of the observed points
   std::unique_ptr<const PointCovariances> covariances_; // of the observed points
   std::unique_ptr<const KrigingWeights> weights_;
-  std::vector<std::string> warnings_; // about the resolution
+  std::vector<std::string> resolutionWarnings_;
+  std::vector<double> deviationsOfMeans_; // MaternField
+  SolveReport ofSamples_;
+  SolveReport ofCovariances_; // their tolerance is another one
   Result result_;
 };
 

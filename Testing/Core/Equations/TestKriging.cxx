@@ -69,6 +69,11 @@ Eigen::MatrixXd WithNoise(Eigen::MatrixXd covariance, double noise)
   return covariance;
 }
 
+double LargestDifference(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other)
+{
+  return (one - other).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
+
 /// The prediction at the functions.
 MultiVector Predict(
   const PointCovariances& covariances, const KrigingWeights& weights, const MultiVector& y)
@@ -205,25 +210,49 @@ TEST(Kriging, LeavesOneOut)
     std::isnan(KrigingWeights(C.topLeftCorner(1, 1)).Validate(Eigen::VectorXd::Ones(1)).error[0]));
 }
 
-/// The likelihood of independent observations is a product, and that of two is known.
-TEST(Kriging, HasTheLikelihoodOfNormalNumbers)
+/// The likelihood of the differences from any one of the observations, by their own covariance.
+TEST(Kriging, HasTheLikelihoodOfTheDifferences)
 {
   const double pi = std::acos(-1.0);
-  const Eigen::VectorXd variance = Eigen::Vector3d(0.5, 2.0, 3.0);
+  Eigen::Matrix3d C;
+  C << 2.0, 1.2, 0.3, 1.2, 1.5, -0.1, 0.3, -0.1, 4.0;
   const Eigen::Vector3d y(4.0, 5.0, 9.0);
-  const Eigen::ArrayXd weight = variance.array().inverse();
-  const double mean = (weight * y.array()).sum() / weight.sum();
-  const double expected =
-    -0.5 * (weight * (y.array() - mean).square() + (2.0 * pi * variance.array()).log()).sum();
-  EXPECT_NEAR(
-    KrigingWeights(variance.asDiagonal()).LogLikelihood(y), expected, 1e-12 * std::abs(expected));
-  Eigen::Matrix2d C;
-  C << 2.0, 1.2, 1.2, 2.0; // the most likely mean is the mean of both
-  const double halfDifference = 1.5;
-  EXPECT_NEAR(KrigingWeights(C).LogLikelihood(Eigen::Vector2d(1.0, 4.0)),
-    -halfDifference * halfDifference / (2.0 - 1.2) - 0.5 * std::log(4.0 - 1.44) -
-      std::log(2.0 * pi),
-    1e-12);
+  const double found = KrigingWeights(C).LogLikelihood(y);
+  for (const Id from : { 0, 1, 2 })
+  {
+    const Id i = (from + 1) % 3;
+    const Id k = (from + 2) % 3;
+    const Eigen::Vector2d d(y[i] - y[from], y[k] - y[from]);
+    // The covariance of the two differences, and its inverse by Cramer's rule.
+    const double a = C(i, i) + C(from, from) - 2.0 * C(i, from);
+    const double b = C(k, k) + C(from, from) - 2.0 * C(k, from);
+    const double c = C(i, k) - C(i, from) - C(k, from) + C(from, from);
+    const double determinant = a * b - c * c;
+    const double squares =
+      (b * d[0] * d[0] - 2.0 * c * d[0] * d[1] + a * d[1] * d[1]) / determinant;
+    EXPECT_NEAR(found, -0.5 * (squares + std::log(determinant)) - std::log(2.0 * pi), 1e-12);
+  }
+  EXPECT_NEAR(KrigingWeights(C.topLeftCorner(1, 1)).LogLikelihood(y.head(1)), 0.0, 1e-14);
+}
+
+/// A field and the same field plus a random constant tell the same, because the mean is unknown.
+TEST(Kriging, ACommonConstantOfTheFieldChangesNothing)
+{
+  const auto space = Build(true);
+  const MaternField field = FieldOn(*space, 2);
+  const PointCovariances covariances(field, space->RowsAtPoints(Observed));
+  const MultiVector y = Observations();
+  const Eigen::MatrixXd C = WithNoise(covariances.BetweenPoints(), 0.3);
+  const KrigingWeights one(C);
+  for (const double variance : { 0.5, 20.0 })
+  {
+    const KrigingWeights other((C.array() + variance).matrix());
+    EXPECT_LT(LargestDifference(one.Of(y).weights, other.Of(y).weights), 1e-9) << variance;
+    EXPECT_LT(LargestDifference(one.Of(y).mean, other.Of(y).mean), 1e-9) << variance;
+    const Eigen::VectorXd values = y.col(0);
+    EXPECT_NEAR(one.Validate(values).ratio, other.Validate(values).ratio, 1e-9) << variance;
+    EXPECT_NEAR(one.LogLikelihood(values), other.LogLikelihood(values), 1e-9) << variance;
+  }
 }
 
 /// The columns of many points are not kept, and products with them take solves.

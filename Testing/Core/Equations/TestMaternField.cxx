@@ -103,6 +103,40 @@ TEST(MaternField, HasTheVarianceOfEachDegreeOnASphere)
   }
 }
 
+/// On components of several sizes, the means of samples have the exact standard deviations.
+TEST(MaternField, KnowsTheDeviationOfTheMeanOnEachComponent)
+{
+  constexpr Id Samples = 200;
+  constexpr double Range = 1.5;
+  const TriangleMesh sphere = GeodesicSphere(6);
+  const auto half = static_cast<Id>(sphere.points.size());
+  const TriangleMesh mesh =
+    Join(sphere, Transform(sphere, { 1, 2, 3 }, 0.4, 0.25, { 3.0, 0.5, 0.2 }));
+  for (const bool isOnHats : { false, true })
+  {
+    const std::shared_ptr<const FiniteElementSpace> space = BuildEither(mesh, isOnHats, 5, 1e-2);
+    for (const int smoothness : { 1, 2, 3 })
+    {
+      const MaternField field = FieldOn(space, Range, smoothness);
+      const std::vector<double> found = field.DeviationsOfMeans();
+      const MultiVector samples = SamplesOf(*space, field, Samples);
+      ASSERT_EQ(found.size(), 2u);
+      for (const bool isSmall : { false, true })
+      {
+        const double area = SurfaceArea(sphere) * (isSmall ? 0.0625 : 1.0);
+        const double exact = Range * std::sqrt(0.5 * Pi / area); // the same for each smoothness
+        const double same =
+          std::min(std::abs(found[0] / exact - 1.0), std::abs(found[1] / exact - 1.0));
+        EXPECT_LT(same, 1e-6) << isOnHats << smoothness << isSmall;
+        const Eigen::RowVectorXd means =
+          samples.middleRows(isSmall ? half : 0, half).colwise().mean();
+        EXPECT_NEAR(std::sqrt(means.squaredNorm() / Samples) / exact, 1.0,
+          4.0 / std::sqrt(2.0 * Samples) + 0.01);
+      }
+    }
+  }
+}
+
 /// The covariance at several distances, far from the boundary of a square.
 TEST(MaternField, HasTheCovarianceOfMaternOnAPlane)
 {

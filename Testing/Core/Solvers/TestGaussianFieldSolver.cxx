@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -210,7 +211,102 @@ TEST(GaussianFieldSolver, WarnsOfARangeThatFunctionsDoNotResolve)
   EXPECT_NE(warnings[0].find("Range is only"), std::string::npos);
 }
 
-TEST(GaussianFieldSolver, RefusesNoRangeAndStatisticsOfOneSample)
+/// On a sphere of area 1 the variance is the sum over the spherical harmonics. A range that makes
+/// the standard deviation more than a tenth too large gives a warning.
+TEST(GaussianFieldSolver, WarnsIfTheRangeMakesTheStandardDeviationTooLarge)
+{
+  const double pi = std::acos(-1.0);
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  GaussianFieldSolver::Options options = Of(1);
+  for (const int smoothness : { 1, 3 })
+  {
+    options.smoothness = smoothness;
+    for (const double range : { 0.2, 0.4, 0.8, 1.5, 3.0 })
+    {
+      const double kappa2 = 8.0 * smoothness / (range * range);
+      double sum = 0.0;
+      for (int l = 0; l < 2000; ++l)
+      {
+        sum += (2 * l + 1) / std::pow(kappa2 + 4.0 * pi * l * (l + 1), smoothness + 1);
+      }
+      const double deviation =
+        std::sqrt(4.0 * pi * smoothness * std::pow(kappa2, smoothness) * sum);
+      options.range = range;
+      const std::vector<std::string> warnings =
+        GaussianFieldSolver::Solve(mesh, {}, options, AtDepth(4)).warnings;
+      EXPECT_EQ(warnings.empty(), deviation < 1.1) << smoothness << " " << range;
+      // The prediction has an unknown mean anyway.
+      EXPECT_TRUE(
+        GaussianFieldSolver::Solve(mesh, Observe(*mesh, 50), options, AtDepth(4)).warnings.empty())
+        << smoothness << " " << range;
+    }
+  }
+}
+
+/// A fragment is small beside the range, also if the surface is not.
+TEST(GaussianFieldSolver, WarnsOfSmallComponents)
+{
+  const TriangleMesh sphere = GeodesicSphere(8);
+  const auto mesh = std::make_shared<const TriangleMesh>(
+    Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.0, 0.1, { 2, 0, 0 })));
+  for (const GaussianFieldSolver::Input& input :
+    { GaussianFieldSolver::Input(), Observe(*mesh, 50) })
+  {
+    const std::vector<std::string> warnings =
+      GaussianFieldSolver::Solve(mesh, input, Of(1), AtDepth(5)).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("1 of 2 connected components"), std::string::npos) << warnings[0];
+  }
+}
+
+/// The warning names the tolerance that was missed: of samples, or of covariances.
+TEST(GaussianFieldSolver, WarnsWithTheToleranceThatWasMissed)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  GaussianFieldSolver::Options options = Of(1);
+  for (const double tolerance : { 1e-2, 1e-5, 1e-12 })
+  {
+    options.equation.solve.tolerance = tolerance;
+    options.equation.solve.maximumIterations = 1;
+    const GaussianFieldSolver::Result result =
+      GaussianFieldSolver::Solve(mesh, Observe(*mesh, 200), options, AtDepth(4));
+    ASSERT_FALSE(result.warnings.empty());
+    std::ostringstream used;
+    used << "the Tolerance is " << std::min(tolerance, 1e-9) << ".";
+    EXPECT_NE(result.warnings.back().find(used.str()), std::string::npos) << result.warnings.back();
+    EXPECT_FALSE(result.report.converged);
+  }
+}
+
+/// Unused points get values, too, so they count.
+TEST(GaussianFieldSolver, RefusesSamplesThatDoNotFitIntoMemory)
+{
+  TriangleMesh sphere = GeodesicSphere(4);
+  sphere.points.resize(2000000, Vec3::Zero());
+  const auto mesh = std::make_shared<const TriangleMesh>(std::move(sphere));
+  try
+  {
+    GaussianFieldSolver::Solve(mesh, {}, Of(100000), AtDepth(3)); // 3.2 TB
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("fewer samples"), std::string::npos) << error.what();
+  }
+}
+
+TEST(GaussianFieldSolver, StatisticsOfOneSampleTakeAHundred)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(4));
+  for (const GaussianFieldSolver::Input& input :
+    { GaussianFieldSolver::Input(), Observe(*mesh, 50) })
+  {
+    EXPECT_EQ(GaussianFieldSolver::Solve(mesh, input, Of(1, true), AtDepth(3)).atPoints,
+      GaussianFieldSolver::Solve(mesh, input, Of(100, true), AtDepth(3)).atPoints);
+  }
+}
+
+TEST(GaussianFieldSolver, RefusesNoRange)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(4));
   for (const double range : { 0.0, -1.0, std::nan("") })
@@ -219,7 +315,6 @@ TEST(GaussianFieldSolver, RefusesNoRangeAndStatisticsOfOneSample)
     options.range = range;
     EXPECT_THROW(GaussianFieldSolver::Solve(mesh, {}, options, AtDepth(3)), InvalidInput);
   }
-  EXPECT_THROW(GaussianFieldSolver::Solve(mesh, {}, Of(1, true), AtDepth(3)), InvalidInput);
 }
 
 /// Samples honor the observations: their spread at an observed point is at most the noise.
@@ -342,4 +437,24 @@ TEST(GaussianFieldSolver, SeveralObservationsOfOnePlaceAreMetInTheMean)
   {
     EXPECT_NEAR(result.atPoints(3, c), 3.0, 0.02);
   }
+}
+
+/// Each is predicted from the others of its place, too. The place has the mean of their errors.
+TEST(GaussianFieldSolver, SeveralObservationsOfOnePlaceHaveTheMeanOfTheirErrors)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(6));
+  const auto solve = [&](const std::vector<Id>& points, const std::vector<double>& values)
+  {
+    PointValues observed{ points, MultiVector(static_cast<Id>(values.size()), 1) };
+    std::copy(values.begin(), values.end(), observed.values.data());
+    GaussianFieldSolver::Input input;
+    input.observations.find = [observed] { return observed; };
+    GaussianFieldSolver::Options options = Of(2);
+    options.observationNoise = 0.4;
+    return GaussianFieldSolver::Solve(mesh, input, options, AtDepth(4)).prediction;
+  };
+  const double first = 1.0 - solve({ 100, 3 }, { 0.0, 2.5 }).mean[3];
+  const double second = 2.5 - solve({ 100, 3 }, { 0.0, 1.0 }).mean[3];
+  EXPECT_NEAR(
+    solve({ 3, 100, 3 }, { 1.0, 0.0, 2.5 }).leaveOneOutError[3], 0.5 * (first + second), 1e-6);
 }
