@@ -3,9 +3,10 @@
  * @brief   points spread evenly over a surface, and the region of each
  *
  * Finds points one after the other. Each new point is the farthest, along the surface, from all
- * points before it. The largest distance to a found point is therefore at most twice the largest
- * distance of the best choice of equally many points. Every connected component gets a point before
- * any component gets a second one. Each point takes one solution of vtkGeodesicDistance. A larger
+ * points before it. If distances were exact, the largest distance to a found point would be at most
+ * twice the largest distance of the best choice of equally many points. Every connected component
+ * gets a point before any component gets a second one. A warning tells if there are too few points
+ * for all components. Each point takes one solution of vtkGeodesicDistance. A larger
  * NumberOfPoints continues from the points found before.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
@@ -14,7 +15,7 @@
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Distance` from the nearest found point, in the unit of the points. It is
- *   NaN at points that no polygon uses.
+ *   NaN at points that no polygon uses, and on components without a found point.
  * - point data, vtkIdType: `NearestPoint`, the id of the nearest found point. It is -1 where
  *   Distance is NaN.
  * - field data: `FarthestPoints` (vtkIdType), the ids in the order in which they were found. There

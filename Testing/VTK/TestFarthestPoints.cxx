@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace gridfem;
 using namespace gridfem::testing;
 
@@ -77,6 +80,27 @@ TEST(FarthestPoints, MorePointsKeepThoseThatAreThere)
   EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
   const std::vector<double> five = Ids(filter);
   EXPECT_TRUE(std::equal(three.begin(), three.end(), five.begin()));
+}
+
+TEST(FarthestPoints, FewerPointsThanComponentsLeaveNaNAndAWarning)
+{
+  const TriangleMesh sphere = GeodesicSphere(4);
+  const auto filter =
+    Spread(ToPolyData(Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.0, 1.0, { 4, 0, 0 }))), 1);
+  const Messages messages(filter);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("50 % of the points"), std::string::npos);
+  const std::vector<double> distance = PointValues(filter->GetOutput(), "Distance");
+  const std::vector<double> nearest = PointValues(filter->GetOutput(), "NearestPoint");
+  double largest = 0.0;
+  for (std::size_t point = 0; point < distance.size(); ++point)
+  {
+    EXPECT_EQ(std::isnan(distance[point]), nearest[point] == -1.0);
+    largest = std::fmax(largest, distance[point]);
+  }
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Radius"), largest);
+  EXPECT_LT(largest, 4.0);
 }
 
 TEST(FarthestPoints, AFirstPointOutsideTheMeshIsRefused)

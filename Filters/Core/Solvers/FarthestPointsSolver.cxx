@@ -7,7 +7,9 @@
 #include "Solvers/SolveWarnings.h"
 
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace gridfem
 {
@@ -28,6 +30,24 @@ Id FirstPoint(const TriangleMesh& mesh, int wanted)
   return wanted;
 }
 
+/// The warning if points on some components have no distance.
+std::vector<std::string> WarningsOfInfinity(const MultiVector& distance)
+{
+  const auto infinite = (distance.array() == Infinity).count();
+  if (infinite == 0)
+  {
+    return {};
+  }
+  const double share = double(infinite) / double(infinite + distance.array().isFinite().count());
+  std::ostringstream text;
+  text
+    << std::setprecision(3) << 100.0 * share
+    << " % of the points have no distance, because there are more connected components than found "
+       "points. Choose a larger Number Of Points, or leave fragments out with the filter "
+       "Connectivity.";
+  return { text.str() };
+}
+
 } // namespace
 
 SurfaceOptions FarthestPointsSolver::SurfaceDefaults()
@@ -43,10 +63,11 @@ void FarthestPointsSolver::Restart(const Surface& surface, const Options& option
   const std::vector<char> isReached = surface.PointsWithFunctions();
   result_ = {};
   result_.nearest.assign(isReached.size(), -1);
-  result_.atPoints = MultiVector::Constant(static_cast<Id>(isReached.size()), 1, NaN);
+  solveWarnings_.clear();
+  distance_.resize(static_cast<Id>(isReached.size()), 1);
   for (std::size_t point = 0; point < isReached.size(); ++point)
   {
-    result_.atPoints(static_cast<Id>(point), 0) = isReached[point] ? Infinity : NaN;
+    distance_(static_cast<Id>(point), 0) = isReached[point] ? Infinity : NaN;
   }
 }
 
@@ -56,19 +77,19 @@ void FarthestPointsSolver::AddPoint(
   const DistanceField field = method_->From({ next_ }, solve, surface.MakeJob(progress));
   for (std::size_t point = 0; point < field.atPoints.size(); ++point)
   {
-    double& least = result_.atPoints(static_cast<Id>(point), 0);
+    double& least = distance_(static_cast<Id>(point), 0);
     if (field.atPoints[point] < least)
     {
       least = field.atPoints[point];
       result_.nearest[point] = next_;
     }
   }
-  result_.atPoints(next_, 0) = 0.0;
+  distance_(next_, 0) = 0.0;
   result_.nearest[next_] = next_;
   result_.points.push_back(next_);
-  if (result_.warnings.empty()) // the warnings of all points are alike
+  if (solveWarnings_.empty()) // the warnings of all points are alike
   {
-    result_.warnings = WarningsOf(field, solve.tolerance);
+    solveWarnings_ = WarningsOf(field, solve.tolerance);
   }
   this->FindNext(surface.LongestSide());
 }
@@ -78,15 +99,15 @@ void FarthestPointsSolver::AddPoint(
 void FarthestPointsSolver::FindNext(double side)
 {
   constexpr double Rounding = 1e-9;
-  result_.radius = 0.0;
-  for (Id point = 0; point < result_.atPoints.rows(); ++point)
+  double largest = 0.0;
+  for (Id point = 0; point < distance_.rows(); ++point)
   {
-    result_.radius = std::fmax(result_.radius, result_.atPoints(point, 0));
+    largest = std::fmax(largest, distance_(point, 0));
   }
   next_ = -1;
-  for (Id point = 0; point < result_.atPoints.rows() && result_.radius > Rounding * side; ++point)
+  for (Id point = 0; point < distance_.rows() && largest > Rounding * side; ++point)
   {
-    if (result_.atPoints(point, 0) >= (1.0 - Rounding) * result_.radius)
+    if (distance_(point, 0) >= (1.0 - Rounding) * largest)
     {
       next_ = point;
       return;
@@ -107,6 +128,22 @@ void FarthestPointsSolver::AddPoints(
   }
 }
 
+/// The distance is unknown where it is infinite.
+void FarthestPointsSolver::Finish()
+{
+  result_.atPoints = (distance_.array() == Infinity).select(NaN, distance_);
+  result_.radius = 0.0;
+  for (Id point = 0; point < result_.atPoints.rows(); ++point)
+  {
+    result_.radius = std::fmax(result_.radius, result_.atPoints(point, 0));
+  }
+  result_.warnings = solveWarnings_;
+  for (const std::string& warning : WarningsOfInfinity(distance_))
+  {
+    result_.warnings.push_back(warning);
+  }
+}
+
 const FarthestPointsSolver::Result& FarthestPointsSolver::Update(
   Surface& surface, const Options& options, const Job& job)
 {
@@ -123,8 +160,12 @@ const FarthestPointsSolver::Result& FarthestPointsSolver::Update(
   stages.Run(FirstPointStage, key.Add(restarts_), [&] { this->Restart(surface, options); });
   key = {};
   key.Add(stages.Version(FirstPointStage)).Add(options.numberOfPoints);
-  stages.Run(
-    SolveStage, key, [&] { this->AddPoints(surface, options, job.progress.Part(0.4, 1.0)); });
+  stages.Run(SolveStage, key,
+    [&]
+    {
+      this->AddPoints(surface, options, job.progress.Part(0.4, 1.0));
+      this->Finish();
+    });
   job.Check(1.0);
   return result_;
 }

@@ -10,10 +10,9 @@ namespace gridfem
 {
 
 /// Samples the farthest points by geodesic distance. [Moenning and Dodgson 2003]
-/// The largest remaining distance is at most twice the largest distance of the best choice of
-/// equally many points. [Gonzalez 1985]
-/// Each point takes one solution. More points continue from the existing ones. One process has to
-/// hold the surface.
+/// With exact distances, the largest remaining distance is at most twice the largest distance of
+/// the best choice of equally many points. [Gonzalez 1985] Each point takes one solution. More
+/// points continue from the existing ones. One process has to hold the surface.
 class FarthestPointsSolver
 {
 public:
@@ -35,7 +34,7 @@ public:
   struct Result
   {
     std::vector<Id> points;  // in the order in which they were found
-    MultiVector atPoints;    // distance from the nearest of them, world units
+    MultiVector atPoints;    // distance from the nearest of them, world units; NaN: there is none
     std::vector<Id> nearest; // nearest found point, per mesh point; -1: none is reachable
     double radius = 0.0;     // the largest distance
     std::vector<std::string> warnings;
@@ -58,10 +57,13 @@ private:
   void AddPoint(const Surface& surface, const SolveOptions& solve, const Progress& progress);
   void FindNext(double side);
   void AddPoints(const Surface& surface, const Options& options, const Progress& progress);
+  void Finish();
 
   std::unique_ptr<DistanceMethod> method_;
   Id next_ = -1; // the point to add; -1: there is no other
   int restarts_ = 0;
+  MultiVector distance_; // infinite where no found point is reachable, NaN where no function is
+  std::vector<std::string> solveWarnings_;
   Result result_;
 };
 

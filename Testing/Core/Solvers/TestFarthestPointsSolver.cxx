@@ -146,6 +146,39 @@ TEST(FarthestPointsSolver, ComponentsAndTheLastPoint)
   EXPECT_EQ(all.radius, 0.0);
 }
 
+/// With fewer points than components there is no distance on some of them. A warning tells their
+/// share. Further points continue from there.
+TEST(FarthestPointsSolver, ComponentsWithoutAPointHaveNoDistance)
+{
+  const TriangleMesh sphere = GeodesicSphere(2);
+  TriangleMesh three = Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.0, 1.0, { 4, 0, 0 }));
+  three = Join(three, Transform(sphere, { 0, 0, 1 }, 0.0, 0.5, { 0, 4, 0 }));
+  const auto mesh = std::make_shared<const TriangleMesh>(three);
+  const auto part = static_cast<Id>(sphere.points.size());
+  Stages stages;
+  LocalSurface surface(stages, mesh, AtDepth4());
+  FarthestPointsSolver solver;
+  for (const int number : { 1, 2, 3, 4, 1 })
+  {
+    const FarthestPointsSolver::Result& result = solver.Update(surface, Points(number));
+    const auto isUnknown = result.atPoints.array().isNaN();
+    EXPECT_EQ(isUnknown.count(), std::max(3 - number, 0) * part);
+    EXPECT_EQ((result.atPoints.array().isFinite()).count(), std::min(number, 3) * part);
+    EXPECT_TRUE(std::isfinite(result.radius));
+    EXPECT_GT(result.radius, 0.5);
+    for (Id point = 0; point < result.atPoints.rows(); ++point)
+    {
+      EXPECT_EQ(result.nearest[point] == -1, isUnknown(point, 0)) << number << " " << point;
+    }
+    ASSERT_EQ(result.warnings.size(), number < 3 ? 1u : 0u);
+    if (number < 3)
+    {
+      EXPECT_EQ(result.warnings[0].find(number == 1 ? "66.7 %" : "33.3 %"), 0u)
+        << result.warnings[0];
+    }
+  }
+}
+
 TEST(FarthestPointsSolver, RefusesAFirstPointThatIsNone)
 {
   const int beyond = static_cast<int>(Sphere->points.size());
