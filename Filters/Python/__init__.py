@@ -45,25 +45,41 @@ def arrays(mesh):
     return _inputs.mesh_arrays(mesh, _triangulate)
 
 
-def _solve(name, points, cells, given, properties, sources=()):
-    return _solve_numbered(name, points, cells, given, _inputs.chosen(properties), sources)
+def _solve(name, points, cells, given, properties, sources=(), observed=()):
+    return _solve_numbered(name, points, cells, given, _inputs.chosen(properties), sources, observed)
 
 
-def _known(points, cells, ids, values):
-    """Returns the values at all points, NaN where they are unknown, and the ids as an array. Several
-    values at one point give their mean."""
+def _pairs(points, ids, values):
+    """Returns ids of points and values at them as arrays with equally many rows."""
     ids = _inputs.ids("ids", ids)
     values = numpy.atleast_1d(_inputs.numbers("values", values).astype(float))
     if len(ids) != len(values):
         raise Error(f"there are {len(ids)} ids and {len(values)} values")
-    points, cells = _inputs.checked(points, cells)
     if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
         raise Error(f"ids must be ids of the {len(points)} points, from 0")
+    return ids, values
+
+
+def _known(points, ids, values):
+    """Returns the values at all points, NaN where they are unknown. Several values at one point give
+    their mean."""
+    ids, values = _pairs(points, ids, values)
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
     known[ids] = 0.0
     numpy.add.at(known, ids, values)
     known.T[..., ids] /= numpy.bincount(ids)[ids]
-    return known, ids
+    return known
+
+
+def _random_field(points, cells, properties, ids, values):
+    """Solves with an observation for each pair of an id and a value. NaN is no observation."""
+    ids, values = _pairs(points, ids, values)
+    if values.shape != ids.shape:
+        raise Error(f"values must be numbers in a row; their shape is {values.shape}")
+    is_known = ~numpy.isnan(values)
+    if ids.size and not is_known.any():
+        raise Error("no value is known: all are NaN")
+    return _solve("GaussianField", points, cells, {}, properties, ids[is_known], values[is_known])
 
 
 def spectrum(points, cells, number=20, **properties):
@@ -137,7 +153,7 @@ def farthest_points(points, cells, number, **properties):
 
     Returns three arrays. The first has the ids of the found points in the order in which they were
     found. The others have, for each point of the mesh, the id of the nearest found point and the
-    distance from it. FirstPointId is the first found point.
+    distance from it: -1 and NaN on components without a found point. FirstPointId is the first found point.
     """
     results = _solve("FarthestPoints", points, cells, {}, {"NumberOfPoints": number, **properties})
     ids, nearest = (results[name].astype(numpy.int64) for name in ("FarthestPoints", "NearestPoint"))
@@ -148,7 +164,8 @@ def distance_matrix(points, cells, ids, **properties):
     """Computes the distances along the surface between all points with the given ids, exactly on its triangles.
 
     Returns a symmetric array (K, K) for K ids. The distance between points of different connected
-    components is NaN. `distance` is faster for distances to all points of the surface.
+    components is NaN. A RuntimeWarning tells how many distances may be too large, because the search on a
+    very large mesh gave up. `distance` is faster for distances to all points of the surface.
     """
     ids = _inputs.ids("ids", ids)
     if ids.size == 0:
@@ -168,8 +185,9 @@ def distance_matrix(points, cells, ids, **properties):
 def path(points, cells, ids, closed=False, **properties):
     """Computes the shortest path along the surface through the points with the given ids, in their order.
 
-    closed: the path returns from the last point to the first. Between two given points the path is
-    locally shortest, and exact in the triangles. Returns arrays of the shapes (K, 3), (K, 3), (K, 3):
+    closed: the path returns from the last point to the first. Between two given points the path is the
+    shortest, exactly on the triangles. If the search on a very large mesh gives up, only no path nearby is
+    shorter, and a RuntimeWarning tells so. Returns arrays of the shapes (K, 3), (K, 3), (K, 3):
     places along the path, the corners of the triangle around each place, and their weights. The length is
     `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`. Values at the points of the mesh become
     `(weights * values[corners]).sum(axis=1)` along the path.
@@ -225,38 +243,44 @@ def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0
     distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. Smoothness
     chooses between rough and smooth samples. Another Seed gives other samples. With Statistics the result
     has two columns: mean and standard deviation of the samples. values: observed values at the points with
-    these ids. Every sample agrees with them, and `krige` predicts from them. noise: the standard deviation
-    of the errors of the observations.
+    these ids. Every sample agrees with them, and `krige` predicts from them. With Statistics the result then
+    has the prediction and the standard deviation of its error. noise: the standard deviation of the errors
+    of the observations. Several observations of one point count each.
     """
-    known = _known(points, cells, ids, values)[0] if len(_inputs.ids("ids", ids)) else None
-    return _solve("GaussianField", points, cells, {"values": known},
-                  {"Range": distance, "NumberOfSamples": number, "ObservationNoise": noise,
-                   **properties})["Samples"]
+    return _random_field(points, cells, {"Range": distance, "NumberOfSamples": number,
+                                         "ObservationNoise": noise, **properties}, ids, values)["Samples"]
 
 
 def krige(points, cells, ids, values, distance, noise=0.0, number=100, **properties):
     """Predicts a field everywhere from observed values at the points with the given ids (kriging).
 
     distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. noise: the
-    standard deviation of the errors of the values. StandardDeviation belongs to the field. Returns the
-    prediction (N), the standard deviation of its error (N), the leave-one-out errors (K), and the
-    logarithm of the likelihood of the values. A leave-one-out error is a value minus its prediction from
-    all others. The standard deviation is estimated from `number` samples. The likelihood compares
-    distances: the most likely one suits the values.
+    standard deviation of the errors of the values. Several values of one point count each. Pass
+    StandardDeviation, that of the field (default 1): the returned standard deviation is proportional to
+    it, and noise is weighed against it.
+
+    Returns five results. The first two are the prediction (N) and the standard deviation of its error (N),
+    estimated from `number` samples. The third has the leave-one-out errors (K): a value minus its
+    prediction from all others, or the mean for several values of one point. The fourth is the logarithm of
+    the likelihood of the values. It compares distances: the most likely one suits the values. The fifth is
+    the leave-one-out ratio: the root mean square of the errors, each divided by its expected standard
+    deviation. It is near 1 if StandardDeviation, distance and noise suit the values.
     """
-    known, ids = _known(points, cells, ids, values)
-    results = _solve("GaussianField", points, cells, {"values": known},
-                     {"Range": distance, "ObservationNoise": noise, "NumberOfSamples": number,
-                      "Statistics": True, **properties})
+    if numpy.size(ids) == 0:
+        raise Error("there are no observations")
+    results = _random_field(points, cells, {"Range": distance, "ObservationNoise": noise,
+                                            "NumberOfSamples": number, "Statistics": True, **properties},
+                            ids, values)
     return (results["Prediction"], results["PredictionStandardDeviation"],
-            results["LeaveOneOutError"][ids], results["LogLikelihood"][0])
+            results["LeaveOneOutError"][_inputs.ids("ids", ids)], results["LogLikelihood"][0],
+            results["LeaveOneOutRatio"][0])
 
 
 def interpolate(points, cells, ids, values, **properties):
     """Computes the smoothest function with the given values at the points with the given ids."""
-    known, _ = _known(points, cells, ids, values)
-    return _solve(
-        "HarmonicInterpolation", points, cells, {"values": known}, properties)["Interpolated"]
+    points, cells = _inputs.checked(points, cells)
+    return _solve("HarmonicInterpolation", points, cells, {"values": _known(points, ids, values)},
+                  properties)["Interpolated"]
 
 
 def stitch(points, cells, colors, labels, **properties):

@@ -89,13 +89,13 @@ def placed(name, values, points, cells):
 
 # The values of choices by name, in the order of their numbers.
 CHOICES = {
-    "Amount": ("Time", "FullWidth", "StandardDeviation"),
-    "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
+    "Amount": ("DiffusionTime", "FWHM", "Sigma"),
+    "FilterType": ("None", "LowPass", "HighPass", "BandPass"),
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "MapType": ("Conformal", "Isometric", "Circle"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),
     "ParameterUnits": ("World", "UnitArea", "UnitCube"),
-    "Rescale": ("Automatic", "NoRescale", "ConstantArea", "ConstantVolume"),
+    "Rescale": ("Automatic", "None", "ConstantArea", "ConstantVolume"),
     "Smoothness": ("Harmonic", "Biharmonic"),
     "TransferFunction": ("Isotropic", "LargeNegative", "LargePositive", "LargeAbsolute", "Custom")}
 

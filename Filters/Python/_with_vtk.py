@@ -78,7 +78,9 @@ class _Results:
         if name == "Samples":
             points = self.output.GetPointData()
             names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
-            return numpy.column_stack([self[name] for name in names if name.startswith("Sample")])
+            names = ([name for name in names if name.startswith("Sample")]
+                     or ["Prediction", "PredictionStandardDeviation"])
+            return numpy.column_stack([self[name] for name in names])
         if name == "FlatPoints":
             flat = vtk_to_numpy(self.outputs[-1].GetPoints().GetData())[:, :2]
             return flat - flat.min(axis=0)
@@ -117,10 +119,11 @@ def _set(algorithm, name, key, value):
         raise Error(f"{key} = {value!r}: {error}") from None
 
 
-def solve(name, points, cells, arrays, properties, sources=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=()):
     """Returns the arrays that the filter gives, by their names.
 
-    arrays: the values by name; they may be None.
+    arrays: the values by name; they may be None. sources: ids of points. observed: the values of
+    Gaussian Field at these points.
     """
     algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
     messages = []
@@ -141,8 +144,12 @@ def solve(name, points, cells, arrays, properties, sources=()):
         algorithm.AllModesOn()
     for key, value in properties.items():
         _set(algorithm, name, key, value)
-    for point in sources:
-        algorithm.AddSourcePointId(int(point))
+    if name == "GaussianField":
+        for point, value in zip(sources, observed):
+            algorithm.AddObservation(int(point), float(value))
+    else:
+        for point in sources:
+            algorithm.AddSourcePointId(int(point))
     algorithm.SetInputData(data)
     with _alone():
         algorithm.Update()

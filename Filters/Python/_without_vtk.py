@@ -45,15 +45,23 @@ def _number(name, value):
         raise Error(f"{name} = {value!r}: must be a number") from None
 
 
+def _out_of_memory(name, properties):
+    if name in ("GeodesicPaths", "Parameterization"):  # have no grid
+        return "Out of memory: use a mesh with fewer polygons."
+    depth = properties.get("Depth", _core.properties(name)["Depth"][0])
+    return f"Out of memory at Depth {depth:g}: choose a smaller Depth."
+
+
 def triangulate(corners):
     """Returns the triangles of a polygon, which may be concave, as rows of its corners."""
     return _core.triangulate(corners)
 
 
-def solve(name, points, cells, arrays, properties, sources=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=()):
     """Returns the arrays that the filter of this name would give, by their names.
 
-    arrays: the values by name; they may be None.
+    arrays: the values by name; they may be None. sources: ids of points. observed: the values of
+    Gaussian Field at these points.
     """
     points, cells = checked(points, cells)
     given = {array: placed(array, values, points, cells)
@@ -64,10 +72,10 @@ def solve(name, points, cells, arrays, properties, sources=()):
             name, points, cells,
             {array: (_matrix(values), on_points) for array, (values, on_points) in given.items()},
             numbers,
-            [int(source) for source in sources])
+            [int(source) for source in sources],
+            [float(value) for value in observed])
     except MemoryError:
-        depth = properties.get("Depth", _core.properties(name)["Depth"][0])
-        raise Error(f"Out of memory at Depth {depth:g}: choose a smaller Depth.") from None
+        raise Error(_out_of_memory(name, properties)) from None
     except ValueError as error:
         raise Error(str(error)) from None
     for text in messages:

@@ -6,6 +6,7 @@
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
+#include "Grid/PlaceNumbers.h"
 #include "Solvers/GaussianFieldSolver.h"
 
 #include "vtkDataArray.h"
@@ -18,8 +19,11 @@
 #include "vtkSelection.h"
 
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkGaussianField);
 
@@ -33,13 +37,55 @@ std::string NameOfSample(gridfem::Id number)
   return name.str();
 }
 
+/// Coincident points have copies of one observation. The first of them gets the mean.
+gridfem::PointValues OnePerPlace(
+  const gridfem::PointValues& known, const gridfem::TriangleMesh& mesh)
+{
+  std::map<gridfem::Place, gridfem::Id> rowAt;
+  std::vector<double> copies;
+  gridfem::PointValues ofPlaces;
+  ofPlaces.values.setZero(known.values.rows(), known.values.cols());
+  for (std::size_t k = 0; k < known.points.size(); ++k)
+  {
+    const gridfem::Place place = gridfem::PlaceOf(mesh.points[known.points[k]]);
+    const auto [found, isNew] =
+      rowAt.try_emplace(place, static_cast<gridfem::Id>(ofPlaces.points.size()));
+    if (isNew)
+    {
+      ofPlaces.points.push_back(known.points[k]);
+      copies.push_back(0.0);
+    }
+    ofPlaces.values.row(found->second) += known.values.row(static_cast<gridfem::Id>(k));
+    copies[found->second] += 1.0;
+  }
+  ofPlaces.values.conservativeResize(static_cast<gridfem::Id>(copies.size()), Eigen::NoChange);
+  for (gridfem::Id row = 0; row < ofPlaces.values.rows(); ++row)
+  {
+    ofPlaces.values.row(row) /= copies[row];
+  }
+  return ofPlaces;
+}
+
 } // namespace
 
 struct vtkGaussianField::Internals
 {
+  std::vector<std::pair<gridfem::Id, double>> Added;
   gridfem::GaussianFieldSolver Solver;
   const gridfem::GaussianFieldSolver::Result* Result = nullptr; // of this run
   std::vector<std::string> FarObservations;                     // warnings of this run
+
+  gridfem::PointValues AddedValues() const
+  {
+    gridfem::PointValues values;
+    values.values.resize(static_cast<gridfem::Id>(this->Added.size()), 1);
+    for (const auto& [point, value] : this->Added)
+    {
+      values.values(static_cast<gridfem::Id>(values.points.size()), 0) = value;
+      values.points.push_back(point);
+    }
+    return values;
+  }
 };
 
 vtkGaussianField::vtkGaussianField()
@@ -83,12 +129,20 @@ gridfem::GivenConstraints vtkGaussianField::FindObservations(vtkDataSet* places)
   const gridfem::InputArray array = surface.Find(0, "Observation Array");
   if (!array.array)
   {
+    if (!this->Data->Added.empty())
+    {
+      observations.find = [this] { return this->Data->AddedValues(); };
+    }
     return observations;
   }
   gridfem::RequirePointArray(array, "Observation Array", "");
   const gridfem::InputArray mask = surface.Find(1, "Mask Array");
   observations.find = [this, array, mask, &surface]
-  { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
+  {
+    const gridfem::PointValues known =
+      gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh());
+    return surface.AreCoincidentPointsWelded() ? OnePerPlace(known, surface.Mesh()) : known;
+  };
   return observations;
 }
 
@@ -156,11 +210,32 @@ void vtkGaussianField::WriteResult(vtkPolyData* output)
   }
 }
 
+void vtkGaussianField::AddObservation(vtkIdType point, double value)
+{
+  this->Data->Added.emplace_back(point, value);
+  this->Modified();
+}
+
+void vtkGaussianField::ClearObservations()
+{
+  if (!this->Data->Added.empty())
+  {
+    this->Data->Added.clear();
+    this->Modified();
+  }
+}
+
+vtkIdType vtkGaussianField::GetNumberOfObservations()
+{
+  return static_cast<vtkIdType>(this->Data->Added.size());
+}
+
 void vtkGaussianField::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
-  *this->Data = Internals();
+  this->Data->Solver = {};
+  this->Data->Result = nullptr;
 }
 
 void vtkGaussianField::PrintSelf(ostream& os, vtkIndent indent)
@@ -173,4 +248,5 @@ void vtkGaussianField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSamples: " << this->NumberOfSamples << "\n";
   os << indent << "Statistics: " << this->Statistics << "\n";
   os << indent << "ObservationNoise: " << this->ObservationNoise << "\n";
+  os << indent << "Observations: " << this->GetNumberOfObservations() << "\n";
 }

@@ -8,7 +8,9 @@
  *     (k² - Δ)^((n + 1) / 2) u = W
  *
  * on the surface. W is white noise, n is the Smoothness, and k is sqrt(8 n) / Range. On a plane,
- * values at the distance Range have a correlation of about 0.14. Distances are along the surface.
+ * values at the distance Range have a correlation of about 0.14. Distances are along the surface. A
+ * Range above half of the square root of the area of a connected component makes the standard
+ * deviation there larger than StandardDeviation, with a warning.
  * At a boundary the normal derivative is 0. Within about one Range of the boundary, the variance is
  * therefore larger: twice as large on edges, and four times as large in corners.
  *
@@ -38,21 +40,30 @@
  *   takes the array of port 2 with the name of ObservationArray, or the active scalars if
  *   ObservationArray is not chosen either. The MaskArray and the selection are not used then.
  *
+ * Each point of port 2 is an observation with an error of its own, also if several have the same
+ * nearest point. Values of the ObservationArray at coincident points are one observation, their
+ * mean, if WeldCoincidentPoints is on. Without either, the observations are those of
+ * AddObservation.
+ *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Sample000`, `Sample001` ..., one array for each sample.
  * - point data, double, with Statistics instead: `SampleMean` and `SampleStandardDeviation`.
  * - with observations: point data, double: `Prediction`, the most likely field, and
  *   `LeaveOneOutError` at the observed points: observation minus its prediction from all others.
- *   NaN at other points. With Statistics, `PredictionStandardDeviation` is the standard deviation
- *   of the error of Prediction. It has a relative standard error of 1 / sqrt(2 NumberOfSamples).
+ *   It is the mean of several observations of a point, and NaN at other points. With Statistics,
+ *   `PredictionStandardDeviation` is the standard deviation of the error of Prediction. It has a
+ *   relative standard error of 1 / sqrt(2 NumberOfSamples).
  * - with observations: field data: `LeaveOneOutRatio` (double, 1), the root mean square of the
- *   errors divided by their expected standard deviation, and `LogLikelihood` (double, 1) of the
- *   observations. Good parameters give a ratio near 1 and a large likelihood.
+ *   errors divided by their expected standard deviation, and `LogLikelihood` (double, 1), the
+ *   restricted likelihood of the observations. Good parameters give a ratio near 1 and a large
+ *   likelihood.
  * - field data, of the worst solve: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`
  *   and `ConvergenceFactor`. Values are NaN at points that no polygon uses.
  *
- * Tolerance is 1e-6 and NormalStabilization 1e-2 by default. The filter uses all shared properties.
- * Range is in the unit of length of ParameterUnits. On several MPI ranks the surface is gathered.
+ * Tolerance is 1e-6 and NormalStabilization 1e-2 by default. The covariances of observations are
+ * solved to a tolerance of at most 1e-9. The filter uses all shared properties; it refuses
+ * FunctionSpace SmoothGrid. Range is in the unit of length of ParameterUnits. On several MPI ranks
+ * the surface is gathered.
  */
 #ifndef vtkGaussianField_h
 #define vtkGaussianField_h
@@ -120,7 +131,7 @@ public:
   /**
    * When on, the output has the mean and the standard deviation of the samples at every point,
    * instead of the samples. With observations it has the standard deviation of the error of the
-   * prediction. This needs at least two samples. Default off.
+   * prediction. One sample then stands for 100. Default off.
    */
   vtkSetMacro(Statistics, bool);
   vtkGetMacro(Statistics, bool);
@@ -134,6 +145,16 @@ public:
    */
   vtkSetMacro(ObservationNoise, double);
   vtkGetMacro(ObservationNoise, double);
+  ///@}
+
+  ///@{
+  /**
+   * Observations by the ids of points. A point may have several. The filter refuses an id that no
+   * polygon uses when it runs. None by default.
+   */
+  void AddObservation(vtkIdType point, double value);
+  void ClearObservations();
+  vtkIdType GetNumberOfObservations();
   ///@}
 
   /**

@@ -129,6 +129,8 @@ class Engines(unittest.TestCase):
             self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 3, Smoothness=smoothness, **o))
         self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 9, Statistics=True, Seed=5, **o))
         self.compare(lambda g, p, c, **o: g.gaussian_field(p, c, 0.3, 2, [0, 7], [3.0, 5.0], 0.1, **o))
+        self.compare(lambda g, p, c, **o: g.gaussian_field(
+            p, c, 0.3, 9, [0, 7, 0], [3.0, 5.0, 2.0], 0.1, Statistics=True, **o))
 
     def test_krige(self):
         self.compare(lambda g, p, c, **o: g.krige(
@@ -234,7 +236,7 @@ class Engines(unittest.TestCase):
                 self.assertEqual(cells.shape[1], 3)
                 self.assertAlmostEqual(areas(points, cells).sum(), expected, delta=1e-6)
 
-    def test_choices_are_those_of_the_filters(self):
+    def test_choices_are_as_many_as_the_filters_have(self):
         owners = {"Amount": "HeatDiffusion", "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
                   "FunctionSpace": "ScreenedPoisson", "MapType": "Parameterization", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
@@ -242,7 +244,6 @@ class Engines(unittest.TestCase):
         self.assertEqual(choices.keys(), owners.keys())
         for choice, names in choices.items():
             owner = getattr(vtkGridFEMFilters, "vtk" + owners[choice])
-            self.assertEqual([getattr(owner, name) for name in names], list(range(len(names))))
             self.assertEqual(getattr(owner(), f"Get{choice}MaxValue")(), len(names) - 1)
 
     def test_colors_of_both_are_the_same(self):

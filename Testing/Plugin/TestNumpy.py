@@ -193,7 +193,9 @@ class Numpy(unittest.TestCase):
         ids = numpy.random.default_rng(3).choice(len(self.points), 60, replace=False)
         values = 20 + self.points[ids, 2]
         options = {"ParameterUnits": 0, **OPTIONS}
-        mean, deviation, errors, likelihood = gridfem.krige(*self.mesh, ids, values, 1.0, 0.01, **options)
+        mean, deviation, errors, likelihood, ratio = gridfem.krige(
+            *self.mesh, ids, values, 1.0, 0.01, **options)
+        self.assertTrue(0 < ratio < 1)  # a wave of one degree is smoother than the field
         numpy.testing.assert_allclose(mean, 20 + self.points[:, 2], atol=0.2)
         numpy.testing.assert_allclose(mean[ids], values, atol=0.03)
         self.assertLess(deviation[ids].max(), 0.015)
@@ -209,6 +211,46 @@ class Numpy(unittest.TestCase):
             *self.mesh, ids, values, 0.3, 0.01, number=2, **options)[3])
         with self.assertRaisesRegex(gridfem.Error, "there are 2 ids and 1 values"):
             gridfem.krige(*self.mesh, [1, 2], [1.0], 1.0)
+        with self.assertRaisesRegex(gridfem.Error, "no observations"):
+            gridfem.krige(*self.mesh, [], [], 1.0)
+
+    def test_several_observations_of_one_point_count_each(self):
+        """If only one place is observed, the error there is the mean of the errors of its observations."""
+        point, noise, number = 700, 0.5, 400
+        for values in ([2.0], [2.0, 3.5], [1.0, 2.0, 6.0, 1.0, numpy.nan]):
+            known = numpy.array(values)[~numpy.isnan(values)]
+            mean, deviation, errors, _, _ = gridfem.krige(
+                *self.mesh, [point] * len(values), values, 0.5, noise, number, ParameterUnits=0, **OPTIONS)
+            self.assertAlmostEqual(mean[point], known.mean(), places=5)
+            expected = noise / numpy.sqrt(len(known))
+            self.assertAlmostEqual(deviation[point] / expected, 1.0, delta=4 / numpy.sqrt(2 * number))
+            self.assertEqual(len(errors), len(values))
+
+    def test_statistics_of_a_field_with_observations(self):
+        """They are the prediction and the standard deviation of its error."""
+        observed = ([0, 50, 700, 50], [1.0, 2.0, 4.0, 2.5])
+        options = {"ParameterUnits": 0, **OPTIONS}
+        statistics = gridfem.gaussian_field(*self.mesh, 1.0, 20, *observed, 0.2, Statistics=True, **options)
+        expected = gridfem.krige(*self.mesh, *observed, 1.0, 0.2, 20, **options)
+        numpy.testing.assert_array_equal(statistics, numpy.stack(expected[:2], axis=1))
+
+    def test_fewer_points_than_components(self):
+        points = numpy.vstack([self.points, self.points + 5, self.points - 5])
+        cells = numpy.vstack([self.triangles + k * len(self.points) for k in range(3)])
+        with self.assertWarnsRegex(RuntimeWarning, "33.3 % of the points have no distance"):
+            ids, nearest, distances = gridfem.farthest_points(points, cells, 2, Depth=6)
+        self.assertEqual(len(ids), 2)
+        numpy.testing.assert_array_equal(numpy.isnan(distances), nearest == -1)
+        self.assertEqual(numpy.isnan(distances).sum(), len(self.points))
+        self.assertTrue(numpy.isfinite(distances[nearest >= 0]).all())
+
+    def test_choices_have_the_names_of_the_panel(self):
+        height = self.points[:, 2]
+        expected = gridfem.diffuse(*self.mesh, height, fwhm=0.4, **OPTIONS)
+        numpy.testing.assert_array_equal(
+            gridfem.diffuse(*self.mesh, height, 9.0, Amount="FWHM", FWHM=0.4, **OPTIONS), expected)
+        with self.assertRaisesRegex(gridfem.Error, "DiffusionTime, FWHM, Sigma"):
+            gridfem.diffuse(*self.mesh, height, 9.0, Amount="FullWidth", **OPTIONS)
 
     def test_smoothing_by_a_width(self):
         time = 0.05

@@ -5,6 +5,7 @@
 Exit code 77 when nothing could be checked.
 """
 
+import ast
 import pathlib
 import re
 import shutil
@@ -174,6 +175,29 @@ def properties_of_panels():
     panels = [*(ROOT / "Plugin").glob("*.xml"), *(ROOT / "Plugin/Shared").glob("*.xml")]
     return {name for p in panels for name in re.findall(r'Property name="(\w+)"', p.read_text())
             if re.search("[a-z][A-Z]", name)}
+
+
+def choices_of_panel(path):
+    """Returns the texts of each choice in a panel, without spaces."""
+    text = re.sub(r"^@(\w+)@$", lambda shared: (ROOT / f"Plugin/Shared/{shared[1]}.xml").read_text(),
+                  path.read_text(), flags=re.M)
+    return {name: re.sub(" ", "", ",".join(re.findall(r'<Entry value="\d+" text="([^"]*)"', body))).split(",")
+            for name, body in re.findall(
+                r'<IntVectorProperty name="(\w+)"(.*?)</IntVectorProperty>', text, re.DOTALL)
+            if "<Entry" in body}
+
+
+class Choices(Rule):
+    def test_names_in_python_are_those_of_the_panels(self):
+        """Some panels offer only the first of the choices."""
+        text = (ROOT / "Filters/Python/_inputs.py").read_text()
+        choices = ast.literal_eval(re.search(r"^CHOICES = (\{.*?\})", text, re.M | re.DOTALL)[1])
+        panels = [choices_of_panel(p) for p in sorted((ROOT / "Plugin").glob("*.xml"))]
+        offences = [f"{name}: {panel[name]}" for name, names in choices.items() for panel in panels
+                    if panel.get(name, []) != list(names)[:len(panel.get(name, []))]]
+        offences += [f"{name}: no panel has all of {names}" for name, names in choices.items()
+                     if not any(panel.get(name) == list(names) for panel in panels)]
+        self.assertNothing(offences, "Choices in Python that have other names in the panel:")
 
 
 class Messages(Rule):

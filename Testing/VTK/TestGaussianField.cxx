@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -194,6 +195,74 @@ TEST(GaussianField, TakesObservationsFromAMaskOrFromPlaces)
   for (std::size_t point = 0; point < expected.size(); ++point)
   {
     ASSERT_NEAR(found[point], expected[point], 1e-5); // coordinates of places are floats
+  }
+}
+
+/// Observations by id are those of places at the points. A point may have several, and each has an
+/// error of its own.
+TEST(GaussianField, TakesObservationsById)
+{
+  auto filter = MakeFilter(1);
+  filter->SetObservationNoise(0.4);
+  filter->SetStandardDeviation(3.0);
+  vtkNew<vtkPoints> places;
+  places->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> values;
+  for (const auto& [point, value] : { std::pair(vtkIdType(7), 1.0), std::pair(vtkIdType(900), 2.0),
+         std::pair(vtkIdType(7), 4.0), std::pair(vtkIdType(7), 2.5) })
+  {
+    filter->AddObservation(point, value);
+    places->InsertNextPoint(InputOf(filter)->GetPoint(point));
+    values->InsertNextValue(value);
+  }
+  EXPECT_EQ(filter->GetNumberOfObservations(), 4);
+  const std::vector<double> byId = ArrayOf(filter, "Prediction");
+  const std::vector<double> error = ArrayOf(filter, "LeaveOneOutError");
+  EXPECT_FALSE(std::isnan(error[7]) || std::isnan(error[900]) || !std::isnan(error[8]));
+  vtkNew<vtkPolyData> stations;
+  stations->SetPoints(places);
+  stations->GetPointData()->SetScalars(values);
+  filter->ClearObservations();
+  EXPECT_FALSE((filter->Update(), filter->GetOutput()->GetPointData()->HasArray("Prediction")));
+  filter->SetInputDataObject(2, stations);
+  EXPECT_EQ(ArrayOf(filter, "Prediction"), byId);
+  filter->SetInputDataObject(2, nullptr);
+
+  // With a single value there, the mean of the three, the other point has more weight.
+  filter->AddObservation(7, 2.5);
+  filter->AddObservation(900, 2.0);
+  EXPECT_GT(std::abs(ArrayOf(filter, "Prediction")[7] - byId[7]), 1e-3);
+
+  filter->AddObservation(100000, 1.0);
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("there is no point 100000"), std::string::npos);
+}
+
+/// Each point of a soup of triangles has several copies. Its value is still one observation.
+TEST(GaussianField, CopiesOfAPointAreOneObservation)
+{
+  const TriangleMesh sphere = GeodesicSphere(8);
+  const TriangleMesh soup = Unweld(sphere);
+  const auto predict = [](const TriangleMesh& mesh, bool welds)
+  {
+    auto filter = MakeFilter(1);
+    filter->SetWeldCoincidentPoints(welds);
+    filter->SetInputDataObject(ToPolyData(mesh));
+    filter->SetObservationNoise(0.7);
+    AddPointArray(InputOf(filter), "observed", 1,
+      [](const Vec3& p, int) { return p[2] > 0.7 || p[2] < -0.8 ? p[0] + p[2] : std::nan(""); });
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "observed");
+    return ArrayOf(filter, "Prediction");
+  };
+  const std::vector<double> ofSoup = predict(soup, true);
+  const std::vector<double> expected = predict(sphere, true);
+  for (std::size_t point = 0; point < soup.points.size(); ++point)
+  {
+    const auto same = std::find(sphere.points.begin(), sphere.points.end(), soup.points[point]);
+    ASSERT_NE(same, sphere.points.end());
+    ASSERT_NEAR(ofSoup[point], expected[same - sphere.points.begin()], 1e-5);
   }
 }
 

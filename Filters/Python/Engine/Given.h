@@ -28,7 +28,8 @@ struct Given
   std::vector<Id> sourceCell; // per triangle
   Id numberOfCells = 0;
   std::map<std::string, GivenArray> arrays;
-  std::vector<Id> sources; // points
+  std::vector<Id> sources;      // points
+  std::vector<double> observed; // values at the sources, or none
 
   /// @param cells  a row of ids of points for each cell, `corners` in each
   /// @param weldCoincidentPoints  joins seams (JoinSeams); cells with hanging nodes get more

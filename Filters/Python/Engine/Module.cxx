@@ -87,7 +87,8 @@ Results SolveAlone(const Problem& problem, const Given& given)
 }
 
 py::tuple Solve(const std::string& name, const Points& points, const Cells& cells,
-  const Arrays& arrays, const Numbers& numbers, const std::vector<Id>& sources)
+  const Arrays& arrays, const Numbers& numbers, const std::vector<Id>& sources,
+  const std::vector<double>& observed)
 {
   Properties properties(name, numbers);
   const std::unique_ptr<Problem> problem = Problems.at(name)(properties);
@@ -101,6 +102,7 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
     given.arrays[array] = { values.first, values.second };
   }
   given.sources = sources;
+  given.observed = observed;
   try
   {
     const Results results = SolveAlone(*problem, given);
@@ -141,7 +143,7 @@ PYBIND11_MODULE(_core, module)
     "Solves the problem of a filter's name: arrays and warnings.\n\n"
     "arrays: per name a matrix and whether its rows are points, else they are cells.",
     py::arg("name"), py::arg("points"), py::arg("cells"), py::arg("arrays"), py::arg("properties"),
-    py::arg("sources"));
+    py::arg("sources"), py::arg("observed"));
   module.def("triangulate", &Triangulate, "The triangles of a polygon, by its corners.");
   module.def("properties", &KnownProperties, "Per property its default and its range.");
 }
