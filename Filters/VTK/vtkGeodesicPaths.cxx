@@ -113,7 +113,7 @@ void vtkGeodesicPaths::Compute(vtkInformationVector** inputs, vtkInformationVect
       [&] { return this->Selection->Ids(surface.Mesh()); } });
   }
   gridfem::PathSolver::Options options;
-  options.pathType = this->PathType;
+  options.pathType = static_cast<gridfem::PathType>(this->PathType);
   const gridfem::PathSolver::Result& result =
     this->Data->Solver.Update(surface, given, options, { 0, state.GetProgress() });
 

@@ -2,7 +2,8 @@
  * @class   vtkGeodesicPaths
  * @brief   shortest paths along a surface between some of its points
  *
- * Connects points by the shortest lines on the surface, exactly on its triangles. A search through
+ * Connects points by the shortest lines on the surface, exactly on its triangles (see `Shortest`
+ * below). A search through
  * points and midpoints of edges finds a first path. The path is pulled tight until no line nearby
  * is shorter. A search by windows (Chen and Han 1990, Xin and Wang 2009) then looks for a shorter
  * path everywhere.
@@ -41,8 +42,8 @@
  *   the corners with these weights.
  * - cell data: `Length` (double), `SourceId` and `TargetId` (vtkIdType).
  * - cell data, int: `Shortest`, 1 if no path on the surface is shorter. It is 0 if the search
- *   needed more than 4 million windows, which happens on very large meshes. Even then, no path
- *   nearby is shorter.
+ *   needed more than 4 million windows, which happens on very large meshes, with a warning. Even
+ *   then, no path nearby is shorter.
  *
  * The filter needs no functions. It uses only WeldCoincidentPoints, NumberOfThreads, BlocksAsOne
  * and the DomainArray of the shared properties. On several MPI ranks the surface is gathered, and

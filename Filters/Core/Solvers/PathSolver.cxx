@@ -73,6 +73,20 @@ std::vector<std::string> WarningsOfUnreached(const std::vector<Id>& unreached, s
            std::to_string(unreached.front()) + "." };
 }
 
+std::vector<std::string> WarningsOfLength(
+  const std::vector<PathSolver::Path>& paths, std::size_t mostWindows)
+{
+  const auto unknown = std::count_if(
+    paths.begin(), paths.end(), [](const PathSolver::Path& path) { return !path.isShortest; });
+  if (unknown == 0)
+  {
+    return {};
+  }
+  return { std::to_string(unknown) + " of " + std::to_string(paths.size()) +
+           " paths may not be the shortest, because the search for shorter ones needs more than " +
+           std::to_string(mostWindows) + " windows. No path nearby is shorter." };
+}
+
 } // namespace
 
 std::vector<Index> PathSolver::PlacesOf(const std::vector<Id>& points) const
@@ -146,7 +160,7 @@ void PathSolver::FindPaths(const Ends& ends, const Job& job)
       { sourceAt.at(static_cast<Index>(way.front())), ends.targets[k], std::move(path), false });
     reached.push_back(targets[k]);
   }
-  const bool isShortest = windows_->From(sources, reached, bound, MostWindows, job.Part(0.3, 0.9));
+  const bool isShortest = windows_->From(sources, reached, bound, mostWindows_, job.Part(0.3, 0.9));
   for (std::size_t k = 0; k < found.size(); ++k)
   {
     Path& path = found[k];
@@ -205,7 +219,7 @@ const PathSolver::Result& PathSolver::Update(
     [&]
     {
       result_ = {};
-      const auto type = static_cast<PathType>(options.pathType);
+      const PathType type = options.pathType;
       const Job work = surface.MakeJob(job.progress);
       this->Choose(ends, type != PathType::ToNearestSource, work.Part(0.2, 0.4));
       if (type == PathType::ToNearestSource)
@@ -218,6 +232,10 @@ const PathSolver::Result& PathSolver::Update(
       }
       std::sort(result_.unreached.begin(), result_.unreached.end());
       result_.warnings = WarningsOfUnreached(result_.unreached, result_.paths.size());
+      for (const std::string& warning : WarningsOfLength(result_.paths, mostWindows_))
+      {
+        result_.warnings.push_back(warning);
+      }
     });
   job.Check(1.0);
   return result_;

@@ -37,7 +37,7 @@ public:
 
   struct Options
   {
-    int pathType = static_cast<int>(PathType::ToNearestSource);
+    PathType pathType = PathType::ToNearestSource;
 
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
@@ -84,6 +84,11 @@ public:
 
   static SurfaceOptions SurfaceDefaults() { return {}; }
 
+  PathSolver() = default;
+
+  /// @param mostWindows  of one search; a smaller number gives up sooner
+  explicit PathSolver(std::size_t mostWindows) : mostWindows_(mostWindows) {}
+
   /// Throws InvalidInput if a point is not on the surface, and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job = {});
@@ -105,6 +110,7 @@ private:
   void FindPaths(const Ends& ends, const Job& job);
   void Connect(const std::vector<Id>& points, PathType type, const Job& job);
 
+  std::size_t mostWindows_ = MostWindows;
   std::unique_ptr<PathGraph> graph_;
   std::unique_ptr<PathSearch> search_;
   std::unique_ptr<WindowSearch> windows_;

@@ -30,7 +30,7 @@ PathSolver::Input Given(const std::vector<Id>& sources, const std::vector<Id>& t
 PathSolver::Options Type(PathType type)
 {
   PathSolver::Options options;
-  options.pathType = static_cast<int>(type);
+  options.pathType = type;
   return options;
 }
 
@@ -160,6 +160,30 @@ TEST(PathSolver, NamesTargetsOnOtherComponents)
   EXPECT_EQ(result.unreached, std::vector<Id>{ other });
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_NE(result.warnings.front().find(std::to_string(other)), std::string::npos);
+}
+
+/// A search that gives up leaves paths that may be longer, and a warning with their number.
+TEST(PathSolver, WarnsOfPathsThatMayNotBeTheShortest)
+{
+  constexpr std::size_t Windows = 40;
+  const PathSolver::Input input = Given({ 3, 50 }, { 21, 7 });
+  const PathSolver::Result exact = Solve({ 3, 50 }, { 21, 7 }, PathType::AllPairs);
+  EXPECT_TRUE(exact.warnings.empty());
+  Stages stages;
+  LocalSurface surface(stages, Cube, PathSolver::SurfaceDefaults());
+  PathSolver solver(Windows);
+  const PathSolver::Result& result = solver.Update(surface, input, Type(PathType::AllPairs));
+  ASSERT_EQ(result.paths.size(), exact.paths.size());
+  std::size_t unknown = 0;
+  for (std::size_t k = 0; k < result.paths.size(); ++k)
+  {
+    unknown += result.paths[k].isShortest ? 0 : 1;
+    EXPECT_GE(result.paths[k].path.length, (1.0 - 1e-12) * exact.paths[k].path.length);
+  }
+  EXPECT_GT(unknown, 0u);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_EQ(result.warnings[0].find(std::to_string(unknown) + " of 6 paths may not"), 0u)
+    << result.warnings[0];
 }
 
 TEST(PathSolver, RefusesPointsThatAreNone)
