@@ -46,9 +46,12 @@ def _number(name, value):
 
 
 def _out_of_memory(name, properties):
+    """Returns a message with advice that fits the filter."""
     if name in ("GeodesicPaths", "Parameterization"):  # have no grid
         return "Out of memory: use a mesh with fewer polygons."
     depth = properties.get("Depth", _core.properties(name)["Depth"][0])
+    if depth == 0:
+        return "Out of memory: choose a small Depth instead of 0."
     return f"Out of memory at Depth {depth:g}: choose a smaller Depth."
 
 

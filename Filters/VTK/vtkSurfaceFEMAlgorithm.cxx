@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <new>
+#include <string>
 
 namespace
 {
@@ -42,6 +43,14 @@ void EmptyOutputs(vtkInformationVector* outputs)
       output->Initialize();
     }
   }
+}
+
+/// @param depth  AutomaticDepth: there is no grid, or not yet
+std::string OutOfMemory(int depth)
+{
+  return depth == gridfem::AutomaticDepth
+           ? "Out of memory: use a mesh with fewer polygons."
+           : "Out of memory at Depth " + std::to_string(depth) + ": choose a smaller Depth.";
 }
 
 /// Makes the input the first output. The other outputs are empty.
@@ -240,8 +249,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   catch (const std::bad_alloc&)
   {
     this->FreeStages(); // the next run and the message may need the memory
-    vtkErrorMacro("Out of memory at Depth " << this->State->Surface().UsedOptions().space.depth
-                                            << ": choose a smaller Depth.");
+    vtkErrorMacro(<< OutOfMemory(this->State->Surface().UsedOptions().space.depth));
   }
   catch (const std::exception& error)
   {

@@ -3,6 +3,7 @@ import importlib.util
 import os
 import sys
 import unittest
+import unittest.mock
 import warnings
 
 import numpy
@@ -220,6 +221,18 @@ class Engines(unittest.TestCase):
                     if hasattr(algorithm, f"Get{key}MinValue"):
                         self.assertEqual(least, getattr(algorithm, f"Get{key}MinValue")())
                         self.assertEqual(most, getattr(algorithm, f"Get{key}MaxValue")())
+
+    def test_running_out_of_memory_gives_advice_that_fits_the_function(self):
+        points, triangles = self.meshes["ellipsoid"]
+        module = sys.modules["gridfem_core._without_vtk"]._core
+        with unittest.mock.patch.object(module, "solve", side_effect=MemoryError):
+            for call, message in (
+                    (lambda g: g.distance(points, triangles, [0], Depth=9), "at Depth 9: choose a smaller"),
+                    (lambda g: g.spectrum(points, triangles, Depth=0), "choose a small Depth instead of 0"),
+                    (lambda g: g.path(points, triangles, [0, 9]), "memory: use a mesh with fewer polygons"),
+                    (lambda g: g.parameterize(points, triangles), "memory: use a mesh with fewer polygons")):
+                with self.assertRaisesRegex(self.core.Error, message):
+                    call(self.core)
 
     def test_arrays_of_other_data_sets_of_vtk(self):
         """The surface of a volume mesh, and triangles of strips."""

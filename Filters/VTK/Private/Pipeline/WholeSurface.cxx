@@ -49,6 +49,7 @@ void WholeSurface::PrepareMesh(const Progress& progress)
     this->GetStages().Forget();
   }
   used_ = options_;
+  used_.space.depth = AutomaticDepth; // there is no grid
   StageKey key;
   AddMesh(key, input_);
   key.Add(options_.space.weldCoincidentPoints);
