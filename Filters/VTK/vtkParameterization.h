@@ -3,9 +3,10 @@
  * @brief   flattens a surface: texture coordinates, and the surface as a map
  *
  * Maps a surface to the plane. Each connected component becomes a chart of its own. A component
- * that is no disk is opened first: small holes are filled for the computation, and the surface is
- * cut along edges. Cuts run around handles, between long loops of the boundary, and across a closed
- * surface. Two charts never overlap. One chart may overlap itself unless the map is a circle.
+ * that is not a disk is opened first: small holes are filled for the computation, and the surface
+ * is cut along edges. Cuts run around handles, between long loops of the boundary, and across a
+ * surface that is nearly closed. Two charts never overlap. One chart may overlap itself unless the
+ * map is a circle.
  *
  * MapType determines what the map keeps. Conformal (default) keeps angles, and the scale along the
  * boundary (Sawhney and Crane 2017, Boundary First Flattening). Isometric changes lengths as little
@@ -20,8 +21,9 @@
  * - cell data, double: `AreaDistortion`, the binary logarithm of the change of area. 0 means no
  *   change, 1 the double area. Areas are relative to a map with the area of the surface.
  * - cell data, vtkIdType: `ChartId`, the number of the component.
- * - point data, double: `TCoords`, active texture coordinates in the unit square. They are missing
- *   if the surface was cut, because a point on a cut has two places in the map.
+ * - point data, float: `TCoords`, active texture coordinates in the unit square, NaN at points that
+ *   no polygon uses. They are missing if a point has several places in the map: on a cut, where a
+ *   one-sided surface is opened, and where three sheets meet.
  * - field data, vtkIdType, one number per chart: `EulerCharacteristic` and `BoundaryLoops` of the
  *   component as it was given, `FlippedTriangles`, the number of triangles turned over. The filter
  *   warns about them.
@@ -63,8 +65,9 @@ public:
 
   ///@{
   /**
-   * Loops of the boundary up to this fraction of the longest loop are holes. They are filled for
-   * the computation. Cuts connect longer loops. 0..1, default 0.5.
+   * A boundary loop counts as a hole if it is at most this fraction of the longest one, or of a
+   * tenth of the circle around the area. Holes are filled for the computation only. Longer loops
+   * are connected by cuts. 0..1, default 0.5.
    */
   vtkSetInRangeMacro(HoleSize, double, 0.0, 1.0);
   vtkGetMacro(HoleSize, double);
@@ -73,7 +76,9 @@ public:
   ///@{
   /**
    * The number of cuts toward the points farthest from all cuts and boundaries. They lower the
-   * distortion of areas. A closed surface without handles has at least eight. 0..100, default 0.
+   * distortion of areas. A surface always gets eight or more if its boundary is at most half as
+   * long as a circle around its area. Three quarters are enough if other cuts belong to the
+   * boundary. 0..100, default 0.
    */
   vtkSetInRangeMacro(ExtraCuts, int, 0, 100);
   vtkGetMacro(ExtraCuts, int);

@@ -82,3 +82,54 @@ TEST(Parameterization, AClosedSurfaceIsCut)
     EXPECT_EQ(place, mesh.points[point]);
   }
 }
+
+/// A strip with one side is opened without a cut of its own. Its points there are still twice in
+/// the map, so the surface itself can have no texture.
+TEST(Parameterization, PointsWithTwoPlacesHaveNoTextureCoordinates)
+{
+  TriangleMesh strip; // six quads, half a turn
+  for (int k = 0; k < 6; ++k)
+  {
+    const double angle = 2.0 * 3.14159265358979323846 * k / 6.0;
+    const Vec3 middle(2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0);
+    const Vec3 across =
+      std::cos(angle / 2.0) * middle.normalized() + std::sin(angle / 2.0) * Vec3(0.0, 0.0, 1.0);
+    strip.points.push_back(middle - 0.4 * across);
+    strip.points.push_back(middle + 0.4 * across);
+  }
+  for (Id k = 0; k < 6; ++k)
+  {
+    const bool isLast = k == 5;
+    const Id a = isLast ? 1 : 2 * k + 2;
+    const Id b = isLast ? 0 : 2 * k + 3;
+    strip.triangles.push_back({ 2 * k, 2 * k + 1, b });
+    strip.triangles.push_back({ 2 * k, b, a });
+  }
+  const auto filter = Flattened(ToPolyData(strip));
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->GetTCoords());
+  vtkPolyData* flat = FlatOf(filter);
+  EXPECT_EQ(flat->GetNumberOfPoints(), 14);
+  ASSERT_TRUE(flat->GetPointData()->GetTCoords());
+}
+
+TEST(Parameterization, PointsWithoutPolygonsHaveNoPlaceInTheTexture)
+{
+  TriangleMesh mesh = FlatRectangle(3, 2, 3.0, 2.0);
+  mesh.points.insert(mesh.points.begin() + 5, Vec3(0.5, 0.5, 7.0));
+  for (auto& corners : mesh.triangles)
+  {
+    for (Id& corner : corners)
+    {
+      corner += corner >= 5 ? 1 : 0;
+    }
+  }
+  const auto filter = Flattened(ToPolyData(mesh));
+  vtkDataArray* texture = filter->GetOutput()->GetPointData()->GetTCoords();
+  ASSERT_TRUE(texture);
+  EXPECT_EQ(texture->GetDataType(), VTK_FLOAT);
+  for (vtkIdType k = 0; k < texture->GetNumberOfTuples(); ++k)
+  {
+    EXPECT_EQ(std::isnan(texture->GetComponent(k, 0)), k == 5) << k;
+    EXPECT_EQ(std::isnan(texture->GetComponent(k, 1)), k == 5) << k;
+  }
+}

@@ -1,10 +1,13 @@
 #include "Shape/CutGraph.h"
 
 #include "Base/UnionFind.h"
+#include "Grid/TriangleArea.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -13,8 +16,15 @@ namespace gridfem
 namespace
 {
 
-/// Fewer leave thin parts of a closed surface thousands of times smaller than the rest of the map.
+/// Fewer leave thin parts of a surface that is nearly closed thousands of times smaller than the
+/// rest of the map.
 constexpr int LeastCutsOfClosed = 8;
+
+/// A surface is nearly closed if its boundary is at most this part of a circle around its area.
+/// Half the circle surrounds a cap of a sphere whose conformal map has a fourth of the scale in its
+/// middle. A surface that is cut anyway has less to lose by more cuts.
+constexpr double ShortUncut = 0.5;
+constexpr double ShortCut = 0.75;
 
 constexpr double NotReached = std::numeric_limits<double>::infinity();
 
@@ -25,21 +35,19 @@ public:
   CutSearch(const ConnectedTriangles& triangles, const std::vector<Vec3>& points)
     : triangles_(triangles), points_(points), node_(NumberVertices(triangles))
   {
+    std::vector<Index> joined(node_.count); // the node of each vertex
+    std::iota(joined.begin(), joined.end(), 0);
     for (const std::vector<HalfEdge>& loop : BoundaryLoops(triangles))
     {
       loops_.push_back(node_.ofCorner[loop.front()]);
       for (const HalfEdge h : loop)
       {
-        joined_.resize(std::max<std::size_t>(joined_.size(), node_.count), -1);
-        joined_[node_.ofCorner[h]] = loops_.back();
+        joined[node_.ofCorner[h]] = loops_.back();
       }
     }
-    if (!joined_.empty())
+    for (Index& node : node_.ofCorner)
     {
-      for (Index& node : node_.ofCorner)
-      {
-        node = joined_[node] < 0 ? node : joined_[node];
-      }
+      node = joined[node];
     }
     begin_.assign(node_.count + 1, 0);
     for (HalfEdge h = 0; h < this->Count(); ++h)
@@ -84,8 +92,7 @@ public:
         cuts_.push_back(h);
       }
     }
-    const int extra =
-      loops_.empty() && cuts_.empty() ? std::max(extraCuts, LeastCutsOfClosed) : extraCuts;
+    const int extra = this->IsNearlyClosed() ? std::max(extraCuts, LeastCutsOfClosed) : extraCuts;
     for (int k = 0; k < extra; ++k)
     {
       this->CutFrom(this->MeasureFromCuts());
@@ -100,6 +107,27 @@ private:
   double LengthOf(HalfEdge h) const
   {
     return (points_[triangles_.From(h)] - points_[triangles_.To(h)]).norm();
+  }
+
+  /// Both sides of all cuts belong to the boundary.
+  bool IsNearlyClosed() const
+  {
+    double length = 0.0;
+    for (HalfEdge h = 0; h < this->Count(); ++h)
+    {
+      length += triangles_.twin[h] < 0 ? this->LengthOf(h) : 0.0;
+    }
+    for (const HalfEdge h : cuts_)
+    {
+      length += 2.0 * this->LengthOf(h);
+    }
+    double area = 0.0;
+    for (const auto& c : triangles_.places)
+    {
+      area += 0.5 * AreaVector(points_, { c[0], c[1], c[2] }).norm();
+    }
+    const double circle = std::sqrt(4.0 * 3.14159265358979323846 * area);
+    return length <= (cuts_.empty() ? ShortUncut : ShortCut) * circle;
   }
 
   /// Finds shortest paths from all nodes on cuts to all nodes (Dijkstra). Returns the farthest.
@@ -197,10 +225,9 @@ private:
 
   const ConnectedTriangles& triangles_;
   const std::vector<Vec3>& points_;
-  VertexNumbers node_;        // vertices, with those of a loop joined
-  std::vector<Index> joined_; // node of vertices on the boundary
-  std::vector<Index> loops_;  // their nodes
-  std::vector<Index> begin_;  // of the half edges that leave a node
+  VertexNumbers node_;       // vertices, with those of a loop joined
+  std::vector<Index> loops_; // their nodes
+  std::vector<Index> begin_; // of the half edges that leave a node
   std::vector<HalfEdge> leaving_;
   std::vector<char> isOnCut_;
   std::vector<double> length_;

@@ -12,7 +12,8 @@ namespace gridfem
 /// others. Handles are cut along the shortest loops that consist of two paths of the tree and an
 /// edge between them [Erickson and Whittlesey 2005]. The other cuts run from each loop of the
 /// boundary along the tree. Extra cuts lead to the points farthest from all cuts.
-/// @param extraCuts  number of extra cuts; at least one is made if there is no other boundary
+/// @param extraCuts  number of extra cuts; at least eight are made if loops and other cuts are
+///   short for the area
 std::vector<HalfEdge> FindCuts(const ConnectedTriangles& triangles, const std::vector<Vec3>& points,
   bool hasHandles, int extraCuts);
 

@@ -6,6 +6,7 @@
 #include "Shape/CutGraph.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -177,7 +178,7 @@ public:
 
   Disk ToDisk(const OpeningOptions& options)
   {
-    auto loops = BoundaryLoops(part_);
+    const auto loops = BoundaryLoops(part_);
     disk_.topology.loops = static_cast<Id>(loops.size());
     Id inner = 0;
     for (const HalfEdge twin : part_.twin)
@@ -187,16 +188,9 @@ public:
     const Id edges = static_cast<Id>(part_.twin.size()) - inner / 2;
     disk_.topology.euler = NumberVertices(part_).count - edges + part_.Count();
     this->FillHoles(loops, options.holeSize);
-    const bool isDisk = loops.size() == 1 && disk_.topology.Genus() == 0;
-    if (!isDisk || options.extraCuts > 0)
+    for (const HalfEdge h : FindCuts(part_, points_, disk_.topology.Genus() > 0, options.extraCuts))
     {
-      const std::vector<HalfEdge> cuts =
-        FindCuts(part_, points_, disk_.topology.Genus() > 0, options.extraCuts);
-      for (const HalfEdge h : cuts)
-      {
-        part_.Cut(h);
-      }
-      disk_.cutEdges = static_cast<Id>(cuts.size());
+      part_.Cut(h);
     }
     return this->Finish();
   }
@@ -212,26 +206,38 @@ private:
     return length;
   }
 
-  /// Covers every small loop with triangles around its middle.
-  void FillHoles(std::vector<std::vector<HalfEdge>>& loops, double holeSize)
+  /// The length of the circle around the area of the component.
+  double CircleOfArea() const
   {
-    std::vector<double> length;
+    double area = 0.0;
+    for (const auto& c : part_.places)
+    {
+      area += 0.5 * AreaVector(points_, { c[0], c[1], c[2] }).norm();
+    }
+    return std::sqrt(4.0 * 3.14159265358979323846 * area);
+  }
+
+  /// Covers every small loop with triangles around its middle.
+  void FillHoles(const std::vector<std::vector<HalfEdge>>& loops, double holeSize)
+  {
+    constexpr double PinHole = 0.1;
+    double longest = PinHole * this->CircleOfArea();
+    const std::vector<HalfEdge>* kept = nullptr;
     for (const auto& loop : loops)
     {
-      length.push_back(this->LengthOf(loop));
-    }
-    const auto longest = std::max_element(length.begin(), length.end()) - length.begin();
-    std::vector<std::vector<HalfEdge>> kept;
-    for (std::size_t k = 0; k < loops.size(); ++k)
-    {
-      if (static_cast<Id>(k) == longest || length[k] > holeSize * length[longest])
+      if (this->LengthOf(loop) > longest)
       {
-        kept.push_back(std::move(loops[k]));
-        continue;
+        longest = this->LengthOf(loop);
+        kept = &loop;
       }
-      this->Fill(loops[k]);
     }
-    loops = std::move(kept);
+    for (const auto& loop : loops)
+    {
+      if (&loop != kept && this->LengthOf(loop) <= holeSize * longest)
+      {
+        this->Fill(loop);
+      }
+    }
   }
 
   void Fill(const std::vector<HalfEdge>& loop)
@@ -241,7 +247,6 @@ private:
     {
       middle += points_[part_.From(h)] / static_cast<double>(loop.size());
     }
-    ++disk_.filled;
     if (loop.size() == 2)
     {
       part_.Connect(loop[0], loop[1]);

@@ -32,19 +32,17 @@ struct Disk
   std::vector<Id> triangleOf;                  // triangle of the mesh; -1: of a filled hole
   std::vector<char> isTurned;                  // the triangle faces against the mesh's
   Topology topology;                           // before holes were filled and cuts were made
-  Id filled = 0;                               // number of holes that were filled
-  Id cutEdges = 0;                             // number of edges that were cut open
 
   Index NumberOfVertices() const { return static_cast<Index>(points.size()); }
 };
 
 struct OpeningOptions
 {
-  /// Loops of the boundary up to this fraction of the longest loop are holes. They are filled.
-  /// Cuts connect longer ones.
+  /// Loops of the boundary up to this fraction of the longest loop are holes, also up to this
+  /// fraction of a tenth of the circle around the area. They are filled. Cuts connect longer ones.
   double holeSize = 0.5;
-  /// Cuts that lead to the points farthest from all cuts. A closed surface without handles has at
-  /// least eight.
+  /// Cuts that lead to the points farthest from all cuts. A surface that is nearly closed has at
+  /// least eight: its loops and other cuts are short for its area.
   int extraCuts = 0;
   bool weldCoincidentPoints = true;
 };

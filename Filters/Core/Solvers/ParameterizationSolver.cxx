@@ -46,18 +46,24 @@ MultiVector FlattenDisk(DiskMap& map, const Disk& disk, FlatMap kind, const Job&
   return isIsometric ? map.Isometric(std::move(plane), job.Part(0.2, 1.0)) : plane;
 }
 
-/// Notes a vertex for each point of the mesh, also for points that coincide.
-void NoteVertices(
+/// Notes a vertex for each point of the mesh, also for points that coincide. Returns whether a
+/// point has several.
+bool NoteVertices(
   const TriangleMesh& mesh, const Disk& disk, const std::vector<Id>& vertexOf, Flat& flat)
 {
+  bool hasSeveral = false;
   for (std::size_t t = 0; t < disk.triangles.size(); ++t)
   {
     for (int k = 0; k < 3 && disk.triangleOf[t] >= 0; ++k)
     {
       const int own = disk.isTurned[t] && k > 0 ? 3 - k : k;
-      flat.vertexOf[mesh.triangles[disk.triangleOf[t]][own]] = vertexOf[disk.triangles[t][k]];
+      const Id vertex = vertexOf[disk.triangles[t][k]];
+      Id& known = flat.vertexOf[mesh.triangles[disk.triangleOf[t]][own]];
+      hasSeveral = hasSeveral || (known >= 0 && known != vertex);
+      known = vertex;
     }
   }
+  return hasSeveral;
 }
 
 /// Appends the triangles of a chart, and measures it.
@@ -188,15 +194,12 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, con
         flat.pointOf.push_back(disk.pointOf[v]);
       }
     }
-    NoteVertices(mesh, disk, vertexOf.back(), flat);
+    result_.splitsPoints = NoteVertices(mesh, disk, vertexOf.back(), flat) || result_.splitsPoints;
     Chart chart;
     chart.topology = disk.topology;
-    chart.filled = disk.filled;
-    chart.cutEdges = disk.cutEdges;
     AddTriangles(disk, map.Sides(), planes.back(), vertexOf.back(),
       static_cast<Index>(result_.charts.size()), chart, flat);
     result_.charts.push_back(chart);
-    result_.isCut = result_.isCut || disk.cutEdges > 0;
   }
   job.Check(0.85);
   ArrangeCharts(planes);

@@ -45,9 +45,7 @@ public:
   /// What is known about a flattened component.
   struct Chart
   {
-    Topology topology; // before it was opened
-    Id filled = 0;     // holes
-    Id cutEdges = 0;
+    Topology topology;  // before it was opened
     Id turned = 0;      // triangles that the map turns over
     double angle = 0.0; // mean of the angle distortion over the area, degrees
     double area = 0.0;  // mean absolute area distortion over the area
@@ -73,7 +71,7 @@ public:
   {
     Flat flat;
     std::vector<Chart> charts; // in the order of their first triangles
-    bool isCut = false;
+    bool splitsPoints = false; // a point of the mesh has several vertices
     std::vector<std::string> warnings;
   };
 

@@ -14,6 +14,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <limits>
+
 namespace gridfem
 {
 namespace
@@ -21,7 +23,7 @@ namespace
 
 using Flat = ParameterizationSolver::Flat;
 
-constexpr const char* TextureName = "TCoords";
+constexpr const char* TextureName = "TCoords"; // of float: the PLY writer takes no other type
 
 /// Copies all arrays but ghost flags and ids, which belong to the input.
 void CopyArrays(vtkDataSetAttributes* input, vtkIdType count, const char* kind,
@@ -85,9 +87,11 @@ void AddFlatMap(
   data->AddArray(MakeIdArray("ChartId", chart));
   ColorByCells(output, "AreaDistortion");
   AddChartNumbers(result.charts, output);
-  if (!result.isCut) // a point on a cut has two places in the map
+  if (!result.splitsPoints)
   {
-    MultiVector texture = MultiVector::Zero(static_cast<Id>(flat.vertexOf.size()), 2);
+    constexpr double NotAPlace = std::numeric_limits<double>::quiet_NaN();
+    MultiVector texture =
+      MultiVector::Constant(static_cast<Id>(flat.vertexOf.size()), 2, NotAPlace);
     for (Id point = 0; point < texture.rows(); ++point)
     {
       const Id vertex = flat.vertexOf[point];
@@ -96,7 +100,7 @@ void AddFlatMap(
         texture.row(point) = flat.texture.row(vertex);
       }
     }
-    output->GetPointData()->SetTCoords(MakePointArray(TextureName, texture, VTK_DOUBLE));
+    output->GetPointData()->SetTCoords(MakePointArray(TextureName, texture, VTK_FLOAT));
   }
 }
 
@@ -137,7 +141,7 @@ void WriteFlatMap(const ParameterizationSolver::Result& result, const InputMesh&
   {
     places.row(k) = surface.points[flat.pointOf[k]].transpose();
   }
-  ofPoints->SetTCoords(MakePointArray(TextureName, flat.texture, VTK_DOUBLE));
+  ofPoints->SetTCoords(MakePointArray(TextureName, flat.texture, VTK_FLOAT));
   ofPoints->AddArray(MakePointArray("SurfacePosition", places, VTK_DOUBLE));
   ofPoints->AddArray(MakeIdArray("SurfacePoint", flat.pointOf));
   ofCells->AddArray(MakePointArray("AngleDistortion", flat.angle, VTK_DOUBLE));
