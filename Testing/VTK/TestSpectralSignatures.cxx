@@ -239,6 +239,14 @@ TEST_F(SpectralSignaturesFilter, TheTableHasCoefficientsAndWhatRemains)
     filter->SetLastMode(7);
     const double rounding = 1e-6 + 1e-15 * constant;
     EXPECT_LT(Difference(this->Run("Filtered"), Values(sum)), rounding) << constant;
+    filter->SetFilterType(Signatures::HighPass);
+    filter->SetFirstMode(1);
+    std::vector<double> varying;
+    for (std::size_t k = 0; k < seventh.size(); ++k)
+    {
+      varying.push_back(3.0 * third[k] - 4.0 * seventh[k]);
+    }
+    EXPECT_LT(Difference(this->Run("Filtered"), varying), rounding) << constant;
     auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
     const auto column = [&](const char* name)
     { return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name))); };

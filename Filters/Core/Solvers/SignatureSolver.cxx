@@ -18,6 +18,7 @@ namespace
 constexpr const char* ModesStage = "Modes"; // at the points
 constexpr const char* SignaturesStage = "Signatures";
 constexpr const char* DistancesStage = "Distances";
+constexpr const char* ExpansionStage = "Expansion"; // of the values in the modes
 constexpr const char* FilterStage = "Filter";
 ///@}
 
@@ -219,54 +220,65 @@ void SignatureSolver::UpdateSums(
         ClearRows(isReached_, result_.biharmonicDistance);
       }
     });
+  const bool isFiltered = options.filterType != ModeFilter::None;
   key = {};
-  key.Add(surface.GetStages().Version(ModesStage)).Add(KeyOf(input.values));
+  key.Add(surface.GetStages().Version(ModesStage)).Add(KeyOf(input.values)).Add(isFiltered);
+  surface.GetStages().Run(ExpansionStage, key,
+    [&]
+    {
+      for (MultiVector* block : { &result_.coefficients, &result_.remaining, &values_, &shares_ })
+      {
+        block->resize(0, 0);
+      }
+      if (isFiltered)
+      {
+        this->Expand(surface, mesh, input);
+      }
+    });
+  key = {};
+  key.Add(surface.GetStages().Version(ExpansionStage));
   key.Add(options.filterType).Add(options.firstMode).Add(options.lastMode);
-  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, mesh, input, options); });
+  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(options, threads); });
 }
 
-/// Computes the part of the values in the modes that pass. A large constant would round the rest
-/// away. It is therefore left out of the expansion, if all of it passes or all of it does not.
-void SignatureSolver::Filter(
-  const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options)
+/// Expands the values in the modes. Large constants would round the rest away, and are left out.
+void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input)
+{
+  const PointModes& modes = *result_.modes;
+  values_ = input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
+  constants_ = LargeConstants(surface, values_, UsedPoints(mesh));
+  values_.rowwise() -= constants_;
+  // The last column is the constant 1.
+  MultiVector columns(values_.rows(), values_.cols() + 1);
+  columns << values_, MultiVector::Ones(values_.rows(), 1);
+  const ModeExpansion expansion =
+    ExpandInModes(mesh, modes, columns, surface.Threads(), surface.SumsOverProcesses());
+  shares_ = expansion.shares.leftCols(values_.cols());
+  result_.coefficients = shares_ + expansion.shares.rightCols(1) * constants_;
+  result_.remaining =
+    RelativeTo(CountZeroModes(modes) - 1, expansion.remaining.leftCols(values_.cols()));
+}
+
+/// Adds up the modes that pass.
+void SignatureSolver::Filter(const Options& options, int threads)
 {
   result_.filtered.resize(0, 0);
-  result_.coefficients.resize(0, 0);
-  result_.remaining.resize(0, 0);
   if (options.filterType == ModeFilter::None)
   {
     return;
   }
   const PointModes& modes = *result_.modes;
-  const int threads = surface.Threads();
-  MultiVector values =
-    input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
   const bool isHigh = options.filterType == ModeFilter::HighPass;
   const int first = options.filterType == ModeFilter::BandPass ? options.firstMode : 0;
   const int last = isHigh ? options.firstMode - 1 : options.lastMode;
-  Eigen::RowVectorXd constants = Eigen::RowVectorXd::Zero(values.cols());
-  if (first == 0 && last + 1 >= CountZeroModes(modes))
+  // The constants belong to the sum as a whole, or only their parts in some modes do.
+  const bool areWhole = first == 0 && last + 1 >= CountZeroModes(modes);
+  MultiVector sum =
+    SumOfModes(modes, areWhole ? shares_ : result_.coefficients, first, last, threads);
+  result_.filtered = isHigh ? MultiVector(values_ - sum) : std::move(sum);
+  if (areWhole != isHigh)
   {
-    constants = LargeConstants(surface, values, UsedPoints(mesh));
-    values.rowwise() -= constants;
-  }
-  // The last column is the constant 1.
-  MultiVector columns(values.rows(), values.cols() + 1);
-  columns << values, MultiVector::Ones(values.rows(), 1);
-  const ModeExpansion expansion =
-    ExpandInModes(mesh, modes, columns, threads, surface.SumsOverProcesses());
-  const MultiVector shares = expansion.shares.leftCols(values.cols());
-  result_.coefficients = shares + expansion.shares.rightCols(1) * constants;
-  result_.remaining =
-    RelativeTo(CountZeroModes(modes) - 1, expansion.remaining.leftCols(values.cols()));
-  result_.filtered = SumOfModes(modes, shares, first, last, threads);
-  if (isHigh)
-  {
-    result_.filtered = values - result_.filtered;
-  }
-  else
-  {
-    result_.filtered.rowwise() += constants;
+    result_.filtered.rowwise() += constants_;
   }
   ClearRows(isReached_, result_.filtered);
 }

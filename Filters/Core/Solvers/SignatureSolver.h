@@ -108,11 +108,16 @@ private:
     Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void UpdateSums(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
-  void Filter(
-    const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options);
+  void Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input);
+  void Filter(const Options& options, int threads);
 
   SpectrumSolver spectrum_;
   std::vector<char> isReached_; // per point: the modes have a value
+  ///@{ While values are filtered.
+  MultiVector values_; // without their large constants
+  Eigen::RowVectorXd constants_;
+  MultiVector shares_; // of the modes in these values
+  ///@}
   Result result_;
 };
 
