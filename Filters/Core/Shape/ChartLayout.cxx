@@ -53,7 +53,8 @@ void ArrangeCharts(std::vector<MultiVector>& charts)
       y += rowHeight + gap;
       rowHeight = 0.0;
     }
-    charts[k].rowwise() += Eigen::RowVector2d(x, y);
+    charts[k].col(0).array() += x;
+    charts[k].col(1).array() += y;
     x += width[k] + gap;
     rowHeight = std::max(rowHeight, height[k]);
   }

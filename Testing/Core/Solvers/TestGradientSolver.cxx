@@ -10,6 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -47,7 +51,7 @@ Vec3 Upwards(const Vec3& p)
   return Vec3::UnitZ() - p[2] * p;
 }
 
-const Derived& Find(const std::vector<Derived>& fields, const std::string& name)
+const Derived& Find(const std::vector<Derived>& fields, std::string_view name)
 {
   for (const Derived& field : fields)
   {
@@ -56,7 +60,7 @@ const Derived& Find(const std::vector<Derived>& fields, const std::string& name)
       return field;
     }
   }
-  throw std::runtime_error("no " + name);
+  throw std::runtime_error("no " + std::string(name));
 }
 
 } // namespace

@@ -47,7 +47,7 @@ DiffusionSolver::Step HeldCap(const std::shared_ptr<const TriangleMesh>& mesh, i
         held.points.push_back(k);
       }
     }
-    held.values = values(held.points, Eigen::all);
+    held.values = values(held.points, Eigen::indexing::all);
     return held;
   };
   DiffusionSolver::Options options;
