@@ -245,24 +245,29 @@ TEST(GaussianField, CopiesOfAPointAreOneObservation)
 {
   const TriangleMesh sphere = GeodesicSphere(8);
   const TriangleMesh soup = Unweld(sphere);
-  const auto predict = [](const TriangleMesh& mesh, bool welds)
+  const auto predict = [](const TriangleMesh& mesh)
   {
     auto filter = MakeFilter(1);
-    filter->SetWeldCoincidentPoints(welds);
     filter->SetInputDataObject(ToPolyData(mesh));
     filter->SetObservationNoise(0.7);
     AddPointArray(InputOf(filter), "observed", 1,
       [](const Vec3& p, int) { return p[2] > 0.7 || p[2] < -0.8 ? p[0] + p[2] : std::nan(""); });
     filter->SetInputArrayToProcess(0, 0, 0, Points, "observed");
-    return ArrayOf(filter, "Prediction");
+    return std::pair(ArrayOf(filter, "Prediction"), ArrayOf(filter, "LeaveOneOutError"));
   };
-  const std::vector<double> ofSoup = predict(soup, true);
-  const std::vector<double> expected = predict(sphere, true);
+  const auto [ofSoup, errorOfSoup] = predict(soup);
+  const auto [expected, expectedError] = predict(sphere);
   for (std::size_t point = 0; point < soup.points.size(); ++point)
   {
     const auto same = std::find(sphere.points.begin(), sphere.points.end(), soup.points[point]);
     ASSERT_NE(same, sphere.points.end());
-    ASSERT_NEAR(ofSoup[point], expected[same - sphere.points.begin()], 1e-5);
+    const std::size_t original = same - sphere.points.begin();
+    ASSERT_NEAR(ofSoup[point], expected[original], 1e-5);
+    ASSERT_EQ(std::isnan(errorOfSoup[point]), std::isnan(expectedError[original]));
+    if (!std::isnan(errorOfSoup[point]))
+    {
+      ASSERT_NEAR(errorOfSoup[point], expectedError[original], 1e-5);
+    }
   }
 }
 

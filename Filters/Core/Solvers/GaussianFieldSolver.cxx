@@ -2,11 +2,15 @@
 
 #include "Base/Errors.h"
 #include "Distance/NearestSource.h"
+#include "Grid/PlaceNumbers.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <limits>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -85,7 +89,7 @@ std::vector<std::string> WarningsOfSize(
     return {};
   }
   std::ostringstream text;
-  text << "The Range is large beside ";
+  text << std::setprecision(3) << "The Range is large beside ";
   if (isOne)
   {
     text << "the surface";
@@ -154,6 +158,40 @@ PointValues Reached(const PointValues& values, const std::vector<char>& isReache
   }
   reached.values.conservativeResize(static_cast<Id>(reached.points.size()), Eigen::NoChange);
   return reached;
+}
+
+/// Returns the mean of the values of each place at all points there, and NaN at other points.
+Eigen::VectorXd MeansAtPlaces(
+  const Surface& surface, const std::vector<Id>& points, const Eigen::VectorXd& values)
+{
+  const std::vector<Vec3>& all = surface.Mesh().points;
+  std::vector<Index> placeOf(all.size());
+  std::iota(placeOf.begin(), placeOf.end(), Index(0));
+  if (surface.AreCoincidentPointsWelded())
+  {
+    std::vector<Place> places;
+    for (const Id point : points)
+    {
+      places.push_back(PlaceOf(all[point]));
+    }
+    placeOf = PlaceNumbers(std::move(places)).OfPoints(all, surface.Threads());
+  }
+  std::vector<double> sum(all.size(), 0.0);
+  std::vector<double> count(all.size(), 0.0);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    sum[placeOf[points[k]]] += values[static_cast<Id>(k)];
+    count[placeOf[points[k]]] += 1.0;
+  }
+  Eigen::VectorXd means(static_cast<Id>(all.size()));
+  for (std::size_t point = 0; point < all.size(); ++point)
+  {
+    const Index place = placeOf[point];
+    means[static_cast<Id>(point)] = place == PlaceNumbers::None
+                                      ? std::numeric_limits<double>::quiet_NaN()
+                                      : sum[place] / count[place]; // NaN without a value
+  }
+  return means;
 }
 
 void RequireObservations(const PointValues& observed)
@@ -309,14 +347,9 @@ void GaussianFieldSolver::Predict(const Surface& surface, const Options& options
   Prediction& prediction = result_.prediction;
   prediction.mean = surface.ValuesAtPoints(deviation.coefficients).col(0).array() + weights.mean[0];
   const KrigingWeights::LeaveOneOut others = weights_->Validate(observed_.values.col(0));
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(prediction.mean.size());
-  Eigen::ArrayXd count = sum;
-  for (std::size_t k = 0; k < observed_.points.size(); ++k)
-  {
-    sum[observed_.points[k]] += others.error[static_cast<Id>(k)];
-    count[observed_.points[k]] += 1.0;
-  }
-  prediction.leaveOneOutError = sum / count; // NaN without an observation
+  prediction.leaveOneOutError = MeansAtPlaces(surface, observed_.points, others.error);
+  prediction.leaveOneOutError =
+    prediction.mean.array().isNaN().select(prediction.mean, prediction.leaveOneOutError);
   prediction.leaveOneOutRatio = others.ratio;
   prediction.logLikelihood = weights_->LogLikelihood(observed_.values.col(0));
   KeepWorse(covariances_->Report(), ofCovariances_);
