@@ -62,18 +62,6 @@ inline EquationOptions EndedByTolerance(double tolerance)
   return equation;
 }
 
-/// The key of all options that affect a solution, other than its equation. The number of threads
-/// changes no bit of the solution.
-inline StageKey KeyOf(const EquationOptions& equation)
-{
-  const MultigridOptions& multigrid = equation.multigrid;
-  StageKey key;
-  key.Add(multigrid.cycle).Add(multigrid.smoother).Add(multigrid.preSweeps);
-  key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronization);
-  key.Add(equation.solve.tolerance).Add(equation.solve.maximumIterations).Add(equation.accuracy);
-  return key;
-}
-
 /// An options struct names all its fields in a static function template:
 ///
 ///   template<class Self, class Visit>
@@ -88,6 +76,26 @@ inline StageKey KeyOf(const EquationOptions& equation)
 namespace option_fields
 {
 
+/// Does the same for an equation. The number of threads changes no bit of the solution, and a
+/// measure of the caller's own cannot be compared.
+template<class Equation, class Visit>
+void ForEachOf(Equation& equation, Visit&& visit)
+{
+  auto& multigrid = equation.multigrid;
+  visit("Cycle", multigrid.cycle, Within(0, 1));
+  visit("Smoother", multigrid.smoother, Within(0, 2));
+  visit("PreSweeps", multigrid.preSweeps, AtLeast(0));
+  visit("PostSweeps", multigrid.postSweeps, AtLeast(0));
+  visit("Precision", multigrid.precision, Within(0, 2));
+  visit("SweepsPerSynchronization", multigrid.sweepsPerSynchronization, AtLeast(1));
+  auto& solve = equation.solve;
+  visit("Tolerance", solve.tolerance, AtLeast(0.0));
+  visit("MaximumIterations", solve.maximumIterations, AtLeast(0));
+  visit("Measure", solve.measure, Within(0, 1));
+  visit("GiveUp", solve.giveUp, Within(0, 2));
+  visit("Accuracy", equation.accuracy, Within(0.0, 1.0));
+}
+
 struct AddToKey
 {
   StageKey& key;
@@ -98,7 +106,7 @@ struct AddToKey
     key.Add(value);
   }
 
-  void operator()(const EquationOptions& equation) const { key.Add(KeyOf(equation)); }
+  void operator()(const EquationOptions& equation) const { ForEachOf(equation, *this); }
 };
 
 struct Require
@@ -113,11 +121,7 @@ struct Require
     }
   }
 
-  void operator()(const EquationOptions& equation) const
-  {
-    RequireNumber("Tolerance", equation.solve.tolerance);
-    RequireNumber("Accuracy", equation.accuracy);
-  }
+  void operator()(const EquationOptions& equation) const { ForEachOf(equation, *this); }
 };
 
 struct Count
@@ -134,6 +138,14 @@ struct Count
 };
 
 } // namespace option_fields
+
+/// The key of all options of an equation that affect its solution.
+inline StageKey KeyOf(const EquationOptions& equation)
+{
+  StageKey key;
+  option_fields::AddToKey{ key }(equation);
+  return key;
+}
 
 /// The key of all fields.
 template<class Options>

@@ -58,6 +58,27 @@ TEST(OptionFields, AForgottenFieldIsSeen)
   EXPECT_EQ(NumberOfNamedFields<Forgetful>(), 1);
 }
 
+/// An equation names all fields of its three structs, except for the structs themselves, the number
+/// of threads, and a measure of the caller's own.
+TEST(OptionFields, AnEquationNamesItsFieldsAndEachChangesItsKey)
+{
+  int named = 0;
+  EquationOptions equation;
+  option_fields::ForEachOf(equation, option_fields::Count{ named });
+  EXPECT_EQ(named, NumberOfFields<EquationOptions>() - 2 + NumberOfFields<MultigridOptions>() - 1 +
+                     NumberOfFields<SolveOptions>() - 1);
+  const StageKey key = KeyOf(equation);
+  for (int field = 0; field < named; ++field)
+  {
+    std::string name;
+    EquationOptions changed;
+    option_fields::ForEachOf(changed, ChangeField(field, name));
+    EXPECT_TRUE(key != KeyOf(changed)) << name;
+  }
+  equation.multigrid.threads = 3;
+  EXPECT_TRUE(key == KeyOf(equation));
+}
+
 TYPED_TEST(OptionFields, NameAllFields)
 {
   EXPECT_EQ(NumberOfNamedFields<TypeParam>(), NumberOfFields<TypeParam>());
@@ -105,7 +126,7 @@ struct Exceed
     }
   }
 
-  void operator()(EquationOptions& /*equation*/) {}
+  void operator()(EquationOptions& equation) { option_fields::ForEachOf(equation, *this); }
 };
 
 TYPED_TEST(OptionFields, EachNumberOutOfRangeIsRefusedByItsLabel)
