@@ -4,12 +4,15 @@ GRIDFEM_LEVELS     for which processors, default "v2 v3 v4" of x86-64; the best 
                    the package is imported. "native": for this one alone, in a third of the time
 GRIDFEM_BUILD_DIR  a folder where CMake has built the package already
 """
+import atexit
 import os
 import pathlib
 import platform
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 import setuptools
 from setuptools.command.build_ext import build_ext
@@ -46,12 +49,21 @@ class Build(build_ext):
         return build
 
 
-# Not build/, which is CMake's.
-BASE = pathlib.Path(BUILT) / "wheel" if BUILT else ROOT / "build-wheel"
-BASE.mkdir(exist_ok=True)
+def base():
+    """Returns the folder for what the build makes. It is not build/, which is CMake's."""
+    if not BUILT and not os.access(ROOT, os.W_OK):
+        folder = tempfile.mkdtemp()
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        return folder
+    folder = pathlib.Path(BUILT) / "wheel" if BUILT else ROOT / "build-wheel"
+    folder.mkdir(exist_ok=True)
+    return str(folder)
+
+
+BASE = base()
 setuptools.setup(
     version=VERSION.group(1),
     packages=[],
     ext_modules=[setuptools.Extension("gridfem._core", [])],
     cmdclass={"build_ext": Build},
-    options={"build": {"build_base": str(BASE)}, "egg_info": {"egg_base": str(BASE)}})
+    options={"build": {"build_base": BASE}, "egg_info": {"egg_base": BASE}})

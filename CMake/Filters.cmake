@@ -31,7 +31,7 @@ if (TARGET VTK::WrappingPythonCore)
     /${GRIDFEM_PYTHON_DESTINATION}/gridfem /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(vtkGridFEMFiltersPython PROPERTIES INSTALL_RPATH
     "${GRIDFEM_ORIGIN}/${libraries}")
-  foreach (file IN ITEMS __init__ _inputs _with_vtk)
+  foreach (file IN ITEMS __init__ _inputs _messages _with_vtk)
     set(source ${PROJECT_SOURCE_DIR}/Filters/Python/${file}.py)
     configure_file(${source}
       ${PROJECT_BINARY_DIR}/${GRIDFEM_PYTHON_DESTINATION}/gridfem/${file}.py COPYONLY)

@@ -10,20 +10,28 @@ to cells. Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace="Ha
 properties of the filter that does the work. The pages in Plugin/Documentation describe them. A choice is
 a name or its number. A value out of range raises Error.
 
+A mesh can have as many cells as points, such as a torus of quads. Values with this number of rows then
+count as values at points, and the function warns. Pass `on="cells"` for values on cells. Pass
+`on="points"` for values at points without a warning.
+
 To compute on a part of a mesh, pass only its cells, such as `cells[labels == 1]`. The rest counts as cut
 away. Results are NaN at points that no cell uses.
 
-The package comes in two forms with the same functions and results. The form beside ParaView's plugin
-runs the filters. On several MPI ranks each rank computes alone, on its own arrays. The filters
-themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters. They work on the pieces of all ranks
-together. The form that pip installs has the numerics compiled in, and needs only numpy. It takes the
-properties that change the result of a function.
+The package comes in two forms with the same functions, properties and results. The form beside
+ParaView's plugin runs the filters. On several MPI ranks each rank computes alone, on its own arrays. The
+filters themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters. They work on the pieces of all
+ranks together. The form that pip installs has the numerics compiled in, and needs only numpy. Python takes
+whichever of the two comes first on its path. Install only one, or put the folder of the form beside the
+plugin first in PYTHONPATH.
 """
+
+import warnings
 
 import numpy
 
 from . import _inputs
 from ._inputs import Error
+from ._messages import in_words_of_functions
 
 try:
     from ._without_vtk import solve as _solve_numbered, triangulate as _triangulate
@@ -32,7 +40,7 @@ except ImportError:
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
            "distance_matrix", "divergence", "farthest_points", "flow", "gaussian_field", "gradient",
-           "interpolate", "krige", "path", "poisson", "signatures",
+           "interpolate", "krige", "parameterize", "path", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -45,8 +53,47 @@ def arrays(mesh):
     return _inputs.mesh_arrays(mesh, _triangulate)
 
 
-def _solve(name, points, cells, given, properties, sources=(), observed=()):
-    return _solve_numbered(name, points, cells, given, _inputs.chosen(properties), sources, observed)
+class _Results:
+    """The arrays of a result by their names. An array that is missing raises Error with the warnings."""
+
+    def __init__(self, arrays, messages):
+        self.arrays = arrays
+        self.messages = messages
+
+    def __getitem__(self, name):
+        try:
+            return self.arrays[name]
+        except KeyError:
+            raise Error(" ".join([f"The result has no {name}.", *self.messages])) from None
+
+
+def _solve(name, points, cells, given, properties, sources=(), on=None, observed=()):
+    points, cells = _inputs.checked(points, cells)
+    arrays = {}
+    for array, values in given.items():
+        if values is None and array not in ("colors", "labels"):
+            continue
+        values, place = _inputs.placed(name, array, values, points, cells, on)
+        if place == "either":
+            warnings.warn(f"{array} has {len(values)} rows, and there are as many points as cells. They count "
+                          'as values at points. Pass on="cells" for values on cells, or on="points" for no '
+                          "warning.", RuntimeWarning, stacklevel=3)
+        arrays[array] = values, place != "cells"
+    try:
+        results, messages = _solve_numbered(
+            name, points, cells, arrays, _inputs.chosen(properties), sources, observed)
+    except Error as error:
+        raise Error(in_words_of_functions(name, str(error), arrays)) from None
+    messages = [in_words_of_functions(name, message, arrays) for message in messages]
+    for message in messages:
+        warnings.warn(message, RuntimeWarning, stacklevel=3)
+    return _Results(results, messages)
+
+
+def _vectors(vectors):
+    if numpy.shape(vectors)[1:] != (3,):
+        raise Error(f"vectors must have three columns; their shape is {numpy.shape(vectors)}")
+    return vectors
 
 
 def _pairs(points, ids, values):
@@ -64,6 +111,8 @@ def _known(points, ids, values):
     """Returns the values at all points, NaN where they are unknown. Several values at one point give
     their mean."""
     ids, values = _pairs(points, ids, values)
+    if ids.size == 0:
+        raise Error("there are no ids")
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
     known[ids] = 0.0
     numpy.add.at(known, ids, values)
@@ -104,21 +153,22 @@ def signatures(points, cells, number=100, **properties):
 
 
 def poisson(points, cells, values=None, gradients=None, weights=None, held=None, gradient_scale=None,
-            flux=None, **properties):
+            flux=None, on=None, **properties):
     """Computes a function that is close to given values, with gradients close to given gradients.
 
     values: N or M rows. None takes the coordinates.
     gradients: a vector for each column of the values. None takes zero, which smooths.
     weights: weights of the values. Values of weight 0 may be NaN.
-    held: true at points where the values stay.
+    held: true at points where the values stay. It has N rows.
     gradient_scale: a factor on the gradients.
     flux: the slope of the solution out of the surface, at the points of its boundary.
     ScreeningWeight determines how much values count. UseValueGradient and GradientScale sharpen.
     FillUnknown fills in NaN.
+    on: "points" or "cells", where the arrays are if N = M.
     """
     given = {"values": values, "gradients": gradients, "weights": weights, "held": held,
              "gradient_scale": gradient_scale, "flux": flux}
-    return _solve("ScreenedPoisson", points, cells, given, properties)["Solution"]
+    return _solve("ScreenedPoisson", points, cells, given, properties, on=on)["Solution"]
 
 
 def distance(points, cells, sources=(), nearest=False, position=None, **properties):
@@ -139,13 +189,14 @@ def distance(points, cells, sources=(), nearest=False, position=None, **properti
     return results["Distance"]
 
 
-def signed_distance(points, cells, labels, inside=1, **properties):
+def signed_distance(points, cells, labels, inside=1, on=None, **properties):
     """Computes the distance along the surface from the border of a label, negative inside.
 
     labels: integers on points or cells. inside: the label of the inside.
     """
     return _solve("GeodesicDistance", points, cells, {"labels": labels},
-                  {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties})["Distance"]
+                  {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties},
+                  on=on)["Distance"]
 
 
 def farthest_points(points, cells, number, **properties):
@@ -218,7 +269,7 @@ def parameterize(points, cells, **properties):
     return results["FlatPoints"], triangles, origin, results["Distortion"]
 
 
-def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None, sigma=None,
+def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None, sigma=None, on=None,
             **properties):
     """Computes values after heat has spread, in 8 steps: smooths them by a Gaussian along the surface.
 
@@ -234,7 +285,7 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
         raise Error("give one of time, fwhm and sigma")
     amount = {"Amount": given[0], **{key: value for key, value in amounts.items() if value is not None}}
     return _solve("HeatDiffusion", points, cells, {"values": values, "held": held, "source": source},
-                  {**amount, "NumberOfSteps": 8, **properties})["Diffused"]
+                  {**amount, "NumberOfSteps": 8, **properties}, on=on)["Diffused"]
 
 
 def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0.0, **properties):
@@ -283,10 +334,10 @@ def interpolate(points, cells, ids, values, **properties):
                   properties)["Interpolated"]
 
 
-def stitch(points, cells, colors, labels, **properties):
+def stitch(points, cells, colors, labels, on=None, **properties):
     """Computes colors of several scans without the jumps between them. `labels` numbers the scans."""
     return _solve("StitchColors", points, cells, {"colors": colors, "labels": labels},
-                  properties)["StitchedColors"]
+                  properties, on=on)["StitchedColors"]
 
 
 def curvatures(points, cells, **properties):
@@ -300,46 +351,44 @@ def curvatures(points, cells, **properties):
         "MaximumCurvatureDirection"))
 
 
-def gradient(points, cells, values=None, **properties):
+def gradient(points, cells, values=None, on=None, **properties):
     """Computes the gradient along the surface and the Laplacian of values, both at the points.
 
     values: N or M rows; None takes the coordinates. Returns arrays of the shapes (N, 3 C) and (N, C)
     for C columns of values. The gradient of the first column comes first.
     """
-    results = _solve("SurfaceGradient", points, cells, {"values": values}, properties)
+    results = _solve("SurfaceGradient", points, cells, {"values": values}, properties, on=on)
     return results["Gradient"], results["Laplacian"]
 
 
-def divergence(points, cells, vectors, **properties):
+def divergence(points, cells, vectors, on=None, **properties):
     """Computes the divergence of vectors along the surface and their curl about its normal, at points.
 
     vectors: N or M rows of three numbers.
     """
-    if numpy.shape(vectors)[1:] != (3,):
-        raise Error(f"vectors must have three columns; their shape is {numpy.shape(vectors)}")
-    results = _solve("SurfaceGradient", points, cells, {"values": vectors}, properties)
+    results = _solve("SurfaceGradient", points, cells, {"values": _vectors(vectors)}, properties, on=on)
     return results["Divergence"], results["Curl"]
 
 
-def decompose(points, cells, vectors, **properties):
+def decompose(points, cells, vectors, on=None, **properties):
     """Splits vectors along the surface into three parts, at the points (N, 3).
 
     The first part flows out of sources, the second turns in eddies, and the third runs around handles
     and holes. vectors: N or M rows of three numbers.
     """
-    results = _solve("SurfaceGradient", points, cells, {"values": vectors},
-                     {"HodgeDecomposition": True, **properties})
+    results = _solve("SurfaceGradient", points, cells, {"values": _vectors(vectors)},
+                     {"HodgeDecomposition": True, **properties}, on=on)
     return results["GradientPart"], results["RotationPart"], results["HarmonicPart"]
 
 
-def detail(points, cells, scale=2.0, values=None, scales=None, **properties):
+def detail(points, cells, scale=2.0, values=None, scales=None, on=None, **properties):
     """Computes the points of the surface with its details enlarged (scale above 1) or removed (scale 0).
 
     values: numbers at the points. With values, the function returns them with scaled details
     instead of the points. scales: factors on the scale, at points or cells.
     """
     results = _solve("SurfaceDetail", points, cells, {"values": values, "scales": scales},
-                     {"DetailScale": scale, **properties})
+                     {"DetailScale": scale, **properties}, on=on)
     return results["Points" if values is None else "Filtered"]
 
 

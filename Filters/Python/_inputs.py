@@ -72,19 +72,39 @@ def checked(points, cells):
     return points, cells
 
 
-def placed(name, values, points, cells):
-    """Returns values as an array, and whether they belong to the points. Otherwise they belong to the
-    cells."""
-    values = numbers(name, values)
+# Arrays whose rows are points, and arrays with one column.
+_AT_POINTS = {"held", "flux"}
+_OF_ONE_COLUMN = {"gradient_scale", "held", "labels", "scales", "weights"}
+# In these filters the values are at points.
+_WITH_VALUES_AT_POINTS = ("GaussianField", "HarmonicInterpolation", "SurfaceDetail")
+
+
+def placed(filter_name, array, values, points, cells, on=None):
+    """Returns values as an array, and the places of its rows: "points", "cells", or "either" if there are
+    as many points as cells.
+
+    on: where the caller says that they are.
+    """
+    if values is None:
+        raise Error(f"{array} must have a number for each point or cell; it is None")
+    values = numbers(array, values)
     if values.dtype == bool:
         values = values.astype(numpy.uint8)
     if values.ndim not in (1, 2) or values.size == 0:
-        raise Error(f"{name} must have a number, or a row of them, for each point or cell; their shape "
+        raise Error(f"{array} must have a number, or a row of them, for each point or cell; their shape "
                     f"is {values.shape}")
-    if len(values) not in (len(points), len(cells)):
-        raise Error(f"{name} has {len(values)} rows; there are {len(points)} points and "
-                    f"{len(cells)} cells")
-    return values, len(values) == len(points)
+    if array in _OF_ONE_COLUMN and values.ndim == 2 and values.shape[1] != 1:
+        raise Error(f"{array} must have one column; its shape is {values.shape}")
+    counts = {"points": len(points), "cells": len(cells)}
+    if on is not None and on not in counts:
+        raise Error(f'on = {on!r}: must be "points" or "cells"')
+    if array in _AT_POINTS or (array == "values" and filter_name in _WITH_VALUES_AT_POINTS):
+        on = "points"
+    places = [place for place, count in counts.items() if len(values) == count and on in (None, place)]
+    if not places:
+        wanted = f"{len(points)} points and {len(cells)} cells" if on is None else f"{counts[on]} {on}"
+        raise Error(f"{array} has {len(values)} rows; there are {wanted}")
+    return values, places[0] if len(places) == 1 else "either"
 
 
 # The values of choices by name, in the order of their numbers.
@@ -109,6 +129,14 @@ def chosen(properties):
                 raise Error(f"{name} = {value!r}: must be one of {', '.join(CHOICES[name])}")
             numbered[name] = CHOICES[name].index(value)
     return numbered
+
+
+def number(name, value):
+    """Returns the value of a property as a float."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise Error(f"{name} = {value!r}: must be a number") from None
 
 
 def colors_like(colors, given):

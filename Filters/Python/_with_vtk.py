@@ -1,7 +1,7 @@
 """Calls the filters, in the VTK that they were built with."""
 
 import contextlib
-import warnings
+import re
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -9,10 +9,11 @@ from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData, vtkPolygon
+from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 from vtkmodules.vtkParallelCore import vtkDummyController, vtkMultiProcessController
 
 from . import vtkGridFEMFilters
-from ._inputs import Error, checked, placed
+from ._inputs import Error, checked, number
 
 _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
@@ -23,6 +24,12 @@ _INDICES = {
     "HeatDiffusion": {"values": 0, "source": 1, "held": 2},
     "SurfaceDetail": {"values": 0, "scales": 1}}
 _OTHER_INDICES = {"values": 0, "colors": 0, "labels": 1}
+
+# Properties of pipelines, which the functions do not have: of all filters, and of single ones.
+_OF_PIPELINES = {"AllModes", "BlocksAsOne", "Mode", "TimeFrom", "UseSourcePosition"}
+_OF_PIPELINES_BY_FILTER = {
+    "GeodesicPaths": {"MaximumIterations", "Tolerance"}, "LaplaceSpectrum": {"TrackMetric"},
+    "Parameterization": {"MaximumIterations", "Tolerance"}, "ScreenedPoisson": {"TrackMetric"}}
 
 
 def surface(points, cells):
@@ -92,7 +99,9 @@ class _Results:
                                        for kind in ("Angle", "Area")])
         attributes = (data for output in self.outputs for data in (
             output.GetPointData(), output.GetCellData(), output.GetFieldData()))
-        found = next(a for a in attributes if a.HasArray(name))
+        found = next((a for a in attributes if a.HasArray(name)), None)
+        if found is None:
+            raise KeyError(name)
         return vtk_to_numpy(found.GetArray(name)).copy()
 
 
@@ -109,21 +118,42 @@ def triangulate(corners):
                        dtype=numpy.int64).reshape(-1, 3)
 
 
+def has_property(algorithm, name, key):
+    """Returns whether a filter has a property with a number that changes its result."""
+    of_pipelines = _OF_PIPELINES | _OF_PIPELINES_BY_FILTER.get(name, set())
+    return (key not in of_pipelines and hasattr(algorithm, "Set" + key)
+            and not hasattr(vtkPolyDataAlgorithm, "Set" + key) and _number_of(algorithm, key) is not None)
+
+
+def _number_of(algorithm, key):
+    """Returns the value of a property, or None if it is no number."""
+    try:
+        value = getattr(algorithm, "Get" + key)()
+    except (AttributeError, TypeError):  # there is none, or it takes arguments
+        return None
+    return value if isinstance(value, (int, float)) else None
+
+
 def _set(algorithm, name, key, value):
     """Sets a property. Raises Error for one that does not exist, and for a value of another type."""
-    if not hasattr(algorithm, "Set" + key):
+    if not has_property(algorithm, name, key):
         raise Error(f"{name} has no property {key}")
+    value = number(key, value)
+    kind = type(_number_of(algorithm, key))
+    if kind is int and numpy.isfinite(value) and value != numpy.floor(value):
+        label = re.sub("(?<=[a-z])(?=[A-Z])", " ", key)
+        raise Error(f"{label} must be an integer.")
     try:
-        getattr(algorithm, "Set" + key)(value)
-    except (TypeError, OverflowError) as error:
+        getattr(algorithm, "Set" + key)(kind(value))
+    except (ValueError, OverflowError) as error:
         raise Error(f"{key} = {value!r}: {error}") from None
 
 
 def solve(name, points, cells, arrays, properties, sources=(), observed=()):
-    """Returns the arrays that the filter gives, by their names.
+    """Returns the arrays that the filter gives, by their names, and its warnings.
 
-    arrays: the values by name; they may be None. sources: ids of points. observed: the values of
-    Gaussian Field at these points.
+    arrays: values and whether they are at points, by name. sources: ids of points. observed: the
+    values of Gaussian Field at these points.
     """
     algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
     messages = []
@@ -131,10 +161,7 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=()):
     algorithm.AddObserver("ErrorEvent", observe)
     algorithm.AddObserver("WarningEvent", observe)
     data = surface(points, cells)
-    for array, values in arrays.items():
-        if values is None:
-            continue
-        values, on_points = placed(array, values, points, cells)
+    for array, (values, on_points) in arrays.items():
         column = numpy_to_vtk(values, deep=True)
         column.SetName(array)
         (data.GetPointData() if on_points else data.GetCellData()).AddArray(column)
@@ -156,9 +183,8 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=()):
     texts = [text for kind, text in messages if kind == "ErrorEvent"]
     if texts:
         raise Error(texts[0])
-    for _, text in messages:
-        warnings.warn(text, RuntimeWarning, stacklevel=3)
+    warnings = [text for _, text in messages]
     if algorithm.GetOutput().GetNumberOfPoints() == 0:
-        raise Error("there is no result: the input has no points, or the run was aborted")
+        raise Error(" ".join(["there is no result: the input has no points, or the run was aborted", *warnings]))
     return _Results([algorithm.GetOutputDataObject(port)
-                     for port in range(algorithm.GetNumberOfOutputPorts())])
+                     for port in range(algorithm.GetNumberOfOutputPorts())]), warnings

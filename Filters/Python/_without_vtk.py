@@ -1,11 +1,10 @@
 """Calls the numerics, which are compiled into the module _core. VTK is not needed."""
 
 import importlib
-import warnings
 
 import numpy
 
-from ._inputs import Error, checked, colors_like, placed, result_like
+from ._inputs import Error, colors_like, number, result_like
 
 
 def _levels():
@@ -38,13 +37,6 @@ def _matrix(values):
     return numpy.asarray(values, dtype=float).reshape(len(values), -1)
 
 
-def _number(name, value):
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise Error(f"{name} = {value!r}: must be a number") from None
-
-
 def _out_of_memory(name, properties):
     """Returns a message with advice that fits the filter."""
     if name in ("GeodesicPaths", "Parameterization"):  # have no grid
@@ -61,19 +53,18 @@ def triangulate(corners):
 
 
 def solve(name, points, cells, arrays, properties, sources=(), observed=()):
-    """Returns the arrays that the filter of this name would give, by their names.
+    """Returns the arrays that the filter of this name would give, by their names, and warnings.
 
-    arrays: the values by name; they may be None. sources: ids of points. observed: the values of
-    Gaussian Field at these points.
+    arrays: values and whether they are at points, by name. sources: ids of points. observed: the
+    values of Gaussian Field at these points.
     """
-    points, cells = checked(points, cells)
-    given = {array: placed(array, values, points, cells)
-             for array, values in arrays.items() if values is not None}
-    numbers = {key: _number(key, value) for key, value in properties.items()}
+    for key in properties.keys() - _core.properties(name).keys():
+        raise Error(f"{name} has no property {key}")
+    numbers = {key: number(key, value) for key, value in properties.items()}
     try:
         results, messages = _core.solve(
             name, points, cells,
-            {array: (_matrix(values), on_points) for array, (values, on_points) in given.items()},
+            {array: (_matrix(values), on_points) for array, (values, on_points) in arrays.items()},
             numbers,
             [int(source) for source in sources],
             [float(value) for value in observed])
@@ -81,13 +72,11 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=()):
         raise Error(_out_of_memory(name, properties)) from None
     except ValueError as error:
         raise Error(str(error)) from None
-    for text in messages:
-        warnings.warn(text, RuntimeWarning, stacklevel=3)
     results = {array: values[:, 0] if values.shape[1] == 1 and array not in ("Modes", "Samples") else values
                for array, values in results.items()}
     for array in {"Solution", "Diffused", "Interpolated", "Filtered"} & results.keys():
-        if "values" in given:
-            results[array] = result_like(results[array], *given["values"])
+        if "values" in arrays:
+            results[array] = result_like(results[array], *arrays["values"])
     if "StitchedColors" in results:
-        results["StitchedColors"] = colors_like(results["StitchedColors"], given["colors"][0])
-    return results
+        results["StitchedColors"] = colors_like(results["StitchedColors"], arrays["colors"][0])
+    return results, messages

@@ -30,9 +30,22 @@ def unit_sphere(rings=30, sectors=60):
     return points, numpy.array(triangles)
 
 
+def quad_torus(around=16, across=9):
+    """Returns points and quads of a closed torus, of which there are as many."""
+    u, v = numpy.meshgrid(numpy.linspace(0, 2 * numpy.pi, around, endpoint=False),
+                          numpy.linspace(0, 2 * numpy.pi, across, endpoint=False), indexing="ij")
+    radius = 2 + 0.7 * numpy.cos(v)
+    points = numpy.stack([radius * numpy.cos(u), radius * numpy.sin(u), 0.7 * numpy.sin(v)], axis=-1)
+    number = numpy.arange(around * across).reshape(around, across)
+    right = numpy.roll(number, -1, axis=0)
+    cells = numpy.stack([number, right, numpy.roll(right, -1, axis=1), numpy.roll(number, -1, axis=1)], axis=-1)
+    return points.reshape(-1, 3), cells.reshape(-1, 4)
+
+
 def misuses(package, points, triangles):
     """Yields messages, each with a call that has to raise it."""
     f = points[:, 2]
+    on_cells = f[triangles].mean(axis=1)
     none = numpy.zeros((0, 3))
     return {
         "points must be real numbers": lambda: package.spectrum(points * 1j, triangles),
@@ -46,7 +59,8 @@ def misuses(package, points, triangles):
             points, triangles, numpy.zeros((*points.shape, 2))),
         r"labels must .* their shape is \(1742, 0\)": lambda: package.signed_distance(
             points, triangles, numpy.zeros((len(points), 0))),
-        "one component": lambda: package.signed_distance(points, triangles, numpy.sign(points)),
+        r"labels must have one column; its shape is \(1742, 3\)": lambda: package.signed_distance(
+            points, triangles, numpy.sign(points)),
         "not true and false": lambda: package.distance(points, triangles, f > 0.5),
         "there is 0.7": lambda: package.distance(points, triangles, [0.7]),
         "sources must be ids in a row": lambda: package.distance(points, triangles, [[0, 1], [2, 3]]),
@@ -54,6 +68,47 @@ def misuses(package, points, triangles):
             points, triangles, f > 0.5, f),
         "ids must be an array of numbers": lambda: package.interpolate(points, triangles, {0}, [1]),
         "Depth = None": lambda: package.poisson(points, triangles, f, Depth=None),
+        "held has 3480 rows; there are 1742 points$": lambda: package.poisson(
+            points, triangles, f, held=on_cells),
+        "held has 3480 rows; there are 1742 points": lambda: package.diffuse(
+            points, triangles, f, 0.1, held=on_cells),
+        r"held must have one column; its shape is \(1742, 2\)": lambda: package.poisson(
+            points, triangles, f, held=points[:, :2]),
+        "^held needs values at points, but values has a row for each cell.$": lambda: package.poisson(
+            points, triangles, on_cells, held=f),
+        "^Boundary Values needs values at points, but values": lambda: package.diffuse(
+            points, triangles, on_cells, 0.1, BoundaryValues=True),
+        "flux has 3480 rows; there are 1742 points": lambda: package.poisson(
+            points, triangles, f, flux=on_cells),
+        "values has 3480 rows; there are 1742 points": lambda: package.detail(
+            points, triangles, values=on_cells),
+        "gradients has 3 columns. The values have 3, so 9 are needed": lambda: package.poisson(
+            points, triangles, points, points),
+        "colors must have a number for each point or cell; it is None": lambda: package.stitch(
+            points, triangles, None, f),
+        "labels must have a number for each point or cell; it is None": lambda: package.stitch(
+            points, triangles, f, None),
+        "vectors must have three columns": lambda: package.decompose(points, triangles, f),
+        "The result has no GradientPart": lambda: package.decompose(
+            points, triangles, points, HodgeDecomposition=False, **OPTIONS),
+        "no property AllModes": lambda: package.spectrum(points, triangles, AllModes=False),
+        "no property BlocksAsOne": lambda: package.poisson(points, triangles, BlocksAsOne=True),
+        "no property Debug": lambda: package.poisson(points, triangles, Debug=True),
+        "no property InputData": lambda: package.poisson(points, triangles, InputData=None),
+        "no property ResultPrefix": lambda: package.poisson(points, triangles, ResultPrefix="x"),
+        "^number must be an integer": lambda: package.spectrum(points, triangles, 5.5),
+        "^Number Of Threads must be an integer": lambda: package.spectrum(
+            points, triangles, NumberOfThreads=1.5),
+        "^steps is -1; it must be from": lambda: package.flow(points, triangles, -1),
+        "^sources: there is no point -1": lambda: package.distance(points, triangles, -1),
+        "^ids: there is no point 1742. Choose an id from 0 to 1741": lambda: package.path(
+            points, triangles, [0, 1742]),
+        "^there are no ids$": lambda: package.interpolate(points, triangles, [], []),
+        "all are NaN.$": lambda: package.interpolate(points, triangles, [0], [numpy.nan]),
+        "all are NaN, or held is false there.$": lambda: package.poisson(points, triangles, f, held=0 * f),
+        "on = 'point': must be": lambda: package.poisson(points, triangles, f, on="point"),
+        "values has 1742 rows; there are 3480 cells": lambda: package.poisson(
+            points, triangles, f, on="cells"),
     }
 
 
@@ -98,6 +153,48 @@ class Numpy(unittest.TestCase):
     def test_without_values_the_shape_is_smoothed(self):
         solution = gridfem.poisson(*self.mesh, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(solution, 0.6 * self.points, atol=0.005)
+
+    def test_held_points_of_a_smoothed_shape_stay(self):
+        held = self.points[:, 0] > 0.5
+        for call in (lambda **o: gridfem.poisson(*self.mesh, ScreeningWeight=3.0, **o),
+                     lambda **o: gridfem.diffuse(*self.mesh, None, 0.1, **o)):
+            moved = call(held=held, ParameterUnits=0, **OPTIONS)
+            numpy.testing.assert_allclose(moved[held], self.points[held], atol=1e-6)
+            self.assertLess(numpy.linalg.norm(moved[self.points[:, 0] < -0.5], axis=1).max(), 0.95)
+
+    def test_as_many_points_as_cells(self):
+        """A point of no cell changes no result, but the rows then belong to only one of the two."""
+        points, cells = quad_torus()
+        more = numpy.vstack([points, [[9.0, 9.0, 9.0]]])
+        values, weights = numpy.sin(numpy.arange(288.0)).reshape(2, -1)
+        weights = weights ** 2
+
+        def solutions(points, values, weights, **options):
+            yield gridfem.poisson(points, cells, values, weights=weights, **options, **OPTIONS)
+            yield gridfem.gradient(points, cells, values, **options, **OPTIONS)[0]
+            yield gridfem.detail(points, cells, scales=weights, **options, **OPTIONS)
+
+        on_cells = list(solutions(points, values, weights, on="cells"))
+        for solution, expected in zip(on_cells, solutions(more, values, weights)):
+            numpy.testing.assert_array_equal(solution, expected[:-1])
+        at_points = list(solutions(points, values, weights, on="points"))
+        for solution, expected in zip(at_points, solutions(more, [*values, 0], [*weights, 0])):
+            numpy.testing.assert_array_equal(solution, expected[:-1])
+        with self.assertWarnsRegex(RuntimeWarning, "144 rows, and there are as many points as cells") as caught:
+            for solution, expected in zip(solutions(points, values, weights), at_points):
+                numpy.testing.assert_array_equal(solution, expected)
+        self.assertEqual(caught.filename, __file__)
+        with warnings.catch_warnings():  # of what belongs to points alone
+            warnings.simplefilter("error")
+            gridfem.poisson(points, cells, held=values > 0, **OPTIONS)
+            gridfem.interpolate(points, cells, [0, 7], [1.0, 2.0], **OPTIONS)
+
+    def test_numbers_of_other_types(self):
+        expected = gridfem.poisson(*self.mesh, self.points[:, 2], **OPTIONS)
+        for depth in (5.0, "5", numpy.int16(5), numpy.float32(5)):
+            numpy.testing.assert_array_equal(
+                gridfem.poisson(*self.mesh, self.points[:, 2], Depth=depth), expected)
+        self.assertEqual(gridfem.spectrum(*self.mesh, 5.0, **OPTIONS)[0].shape, (5,))
 
     def test_distances_from_both_poles(self):
         distances = gridfem.distance(*self.mesh, [0, len(self.points) - 1], **OPTIONS)
@@ -186,7 +283,7 @@ class Numpy(unittest.TestCase):
             *self.mesh, 0.5, 30, ParameterUnits=0, StandardDeviation=3.0, Statistics=True, **OPTIONS)
         numpy.testing.assert_allclose(
             statistics, numpy.stack([fields.mean(axis=1), fields.std(axis=1, ddof=1)], 1), atol=1e-9)
-        with self.assertRaisesRegex(gridfem.Error, "Range"):
+        with self.assertRaisesRegex(gridfem.Error, "distance is 0"):
             gridfem.gaussian_field(*self.mesh, 0.0, **OPTIONS)
 
     def test_prediction_from_values_at_some_points(self):
@@ -381,7 +478,7 @@ class Numpy(unittest.TestCase):
 
     def test_values_out_of_range_raise(self):
         points, triangles = self.mesh
-        with self.assertRaisesRegex(gridfem.Error, "Number Of Modes is 0; it must be from 1 to 100000"):
+        with self.assertRaisesRegex(gridfem.Error, "number is 0; it must be from 1 to 100000"):
             gridfem.spectrum(points, triangles, 0)
         with self.assertRaisesRegex(gridfem.Error, "Depth is 15; it must be from 0 to 14"):
             gridfem.poisson(points, triangles, Depth=15)

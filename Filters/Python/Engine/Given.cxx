@@ -77,7 +77,12 @@ MultiVector Given::RowsAtPoints(const std::string& name) const
 
 PointValues Given::KnownValues(const GivenArray* mask) const
 {
-  const MultiVector& given = arrays.at("values").values;
+  const GivenArray* values = this->Find("values");
+  if (values && !values->isOnPoints)
+  {
+    throw InvalidInput("values needs a row for each point.");
+  }
+  const MultiVector given = this->RowsAtPoints("values");
   const std::vector<char> used = UsedPoints(*mesh);
   PointValues known;
   for (Id point = 0; point < given.rows(); ++point)
@@ -151,6 +156,10 @@ GivenConstraints Given::Constraints(const std::string& mask) const
   GivenConstraints constraints;
   if (const GivenArray* array = this->Find(mask))
   {
+    if (!array->isOnPoints || array->values.cols() != 1)
+    {
+      throw InvalidInput(mask + " needs a number for each point.");
+    }
     constraints.property = "Constraint Array";
     constraints.find = [this, array] { return this->KnownValues(array); };
   }

@@ -41,9 +41,9 @@ struct Given
   /// coordinates without an array.
   MultiVector RowsAtPoints(const std::string& name) const;
 
-  /// Returns the known rows of the array `values`, which is on points. A row is known if it has no
-  /// NaN, a cell uses its point, and the mask is neither 0 nor NaN there. Throws InvalidInput for
-  /// an infinite value, and if no row is known.
+  /// Returns the known rows of the array `values`, or of the coordinates without it. A row is known
+  /// if it has no NaN, a cell uses its point, and the mask is neither 0 nor NaN there. Throws
+  /// InvalidInput for an infinite value, for values on cells, and if no row is known.
   PointValues KnownValues(const GivenArray* mask) const;
 
   /// Returns the array, or null if it is not given.
@@ -59,7 +59,7 @@ struct Given
   GivenField Field(const std::string& name) const;
 
   /// Returns the points where the array `mask` holds the solution at the value of `values`. None
-  /// without a mask.
+  /// without a mask. Throws InvalidInput for a mask on cells or with several columns.
   GivenConstraints Constraints(const std::string& mask) const;
 
   /// Restores the given values at points that no function reaches (RowsAtPoints).

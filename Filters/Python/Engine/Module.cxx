@@ -99,6 +99,10 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   given.SetCells(VectorsOf(points), cells.data(), cells.shape(0), cells.shape(1), welds);
   for (const auto& [array, values] : arrays)
   {
+    if (values.first.rows() != (values.second ? points.shape(0) : cells.shape(0)))
+    {
+      throw InvalidInput(array + " has " + std::to_string(values.first.rows()) + " rows.");
+    }
     given.arrays[array] = { values.first, values.second };
   }
   given.sources = sources;
