@@ -1,5 +1,10 @@
 # Run by cpack before it packs: what Debian's policy asks of a package and CMake does not do.
 
+if (CPACK_GRIDFEM_NATIVE)
+  message(FATAL_ERROR "This build is for the processor of this machine, and a package is for all. "
+    "Turn GRIDFEM_NATIVE off, or use the preset `package`.")
+endif ()
+
 # Folders that all can read, whatever the umask of who packs.
 execute_process(
   COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -type d -exec chmod 755 {} +

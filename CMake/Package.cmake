@@ -32,7 +32,12 @@ set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/CMake/Debian.cmake)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_NAME gridfem)
 set(CPACK_PACKAGE_VENDOR "GridFEM developers")
+# As the tools of Debian do.
 set(CPACK_PACKAGE_CONTACT "GridFEM developers <gridfem@example.org>")
+if (DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif ()
+set(CPACK_GRIDFEM_NATIVE ${GRIDFEM_NATIVE}) # for Debian.cmake
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Laplace-Beltrami problems on triangle meshes for ParaView")
 set(CPACK_PACKAGE_DESCRIPTION
 "Filters that solve equations on the surface of a mesh: they smooth, sharpen,
@@ -53,9 +58,10 @@ endif ()
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # For packages that link to these libraries; cpack would name those of glibc-hwcaps once more.
 set(shlibs)
-foreach (library gridfem_core gridfem_parallel)
-  if (TARGET ${library})
-    get_target_property(version ${library} SOVERSION)
+foreach (target gridfem_core gridfem_parallel Filters)
+  if (TARGET ${target})
+    get_target_property(version ${target} SOVERSION)
+    string(REGEX REPLACE "^Filters$" vtkGridFEMFilters library ${target})
     string(APPEND shlibs "lib${library} ${version} gridfem (= ${CPACK_DEBIAN_PACKAGE_VERSION})\n")
   endif ()
 endforeach ()
@@ -65,7 +71,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${PROJECT_BINARY_DIR}/shlibs)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3) # which knows the folder of the Python package
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-paraview, python3-numpy") # of the Python package
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev, libeigen3-dev") # of who compiles with the headers
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev, libeigen3-dev, libopenmpi-dev") # of who compiles with the headers
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # pins the ParaView that the plugin was built for
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 include(CPack)

@@ -102,7 +102,7 @@ BuildTree()
   # From nothing, libraries take half of the time when ten files are compiled at a time.
   local ci=OFF
   [ "${CI:-}" != "true" ] || ci=ON
-  local options=(-DCMAKE_BUILD_TYPE=Release "$@" "-DGRIDFEM_WERROR=$ci" "-DCMAKE_UNITY_BUILD=$ci"
+  local options=(-DCMAKE_BUILD_TYPE=Release -DGRIDFEM_NATIVE=ON "$@" "-DGRIDFEM_WERROR=$ci" "-DCMAKE_UNITY_BUILD=$ci"
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=10)
   mkdir -p "$BUILD"
   if [ ! -f "$BUILD/build.ninja" ] ||

@@ -45,7 +45,7 @@ BuildFor()
   read -ra targets <<< "$2"
   shift 2
   mkdir -p "$folder"
-  Quietly "$folder/configure.log" cmake -S "$SOURCE" -B "$folder" -G Ninja -DGRIDFEM_BUILD_VTK=OFF \
+  Quietly "$folder/configure.log" cmake -S "$SOURCE" -B "$folder" -G Ninja -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_NATIVE=ON \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 -DCMAKE_BUILD_TYPE=RelWithDebInfo "$@"
   Say "Building in $folder"
   Quietly "$folder/build.log" cmake --build "$folder" --target "${targets[@]}" -j "$JOBS"
@@ -162,7 +162,7 @@ Mutants()
   mkdir -p "$copy"
   rsync -a --delete --exclude "/build*" --exclude .git "$SOURCE/" "$copy"
   Quietly "$SOURCE/build-mutants/configure.log" cmake -S "$copy" -B "$copy/build" -G Ninja \
-    -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_BUILD_TYPE=Release -DGRIDFEM_NATIVE=ON
   python3 "$copy/Testing/mutants.py" "$copy"
 }
 

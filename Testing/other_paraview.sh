@@ -34,8 +34,8 @@ mkdir -p "$BUILD/tested"
 started=$SECONDS
 Stage() { Say "$SUITE, $((SECONDS - started)) s: $*"; }
 
-options=(-DCMAKE_BUILD_TYPE=Release -DGRIDFEM_WERROR=ON -DGRIDFEM_CCACHE=OFF -DCMAKE_UNITY_BUILD=ON
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=10)
+options=(-DCMAKE_BUILD_TYPE=Release -DGRIDFEM_NATIVE=ON -DGRIDFEM_WERROR=ON -DGRIDFEM_CCACHE=OFF
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10)
 if [ "$SUITE" = "$DEBIAN" ]; then
   mapfile -t packages < <(ParaViewPackages "$DEBIAN")
   packages+=("${RUN_PACKAGES[@]}")

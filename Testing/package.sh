@@ -16,7 +16,8 @@ it runs: the plugin in pvpython, the functions of numpy arrays, and which Core t
 network and 4 GB of disk.
 
 Environment:
-  GRIDFEM_ROOT  the root of another suite, where it is not build-SUITE/root
+  GRIDFEM_ROOT           the root of another suite, where it is not build-SUITE/root
+  DEBFULLNAME, DEBEMAIL  the maintainer of the package
 HELP
   exit
 fi
@@ -62,4 +63,5 @@ mmdebstrap --quiet --variant=minbase "${options[@]}" \
   --customize-hook='chroot "$1" sh -c "PV_PLUGIN_CONFIG_FILE=\$(dpkg -L gridfem | grep plugins.xml) \
     xvfb-run -a pvpython /srv/try_package.py"' \
   "$SUITE" "$PLACE/root.tar"
-Say "$(basename "$PACKAGE") works in $SUITE"
+Say "$(basename "$PACKAGE") works in $SUITE. Install it there as root:"
+echo "apt install $PACKAGE"

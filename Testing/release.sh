@@ -15,7 +15,7 @@ Writes into build-release/ the files of a release of the version in CMakeLists.t
   SHA256SUMS                 checksums of all other files
 
 Refuses changes that are not committed, and a version without a section in CHANGELOG.md. Needs what
-package.sh needs.
+package.sh needs, and the maintainer of the packages in DEBFULLNAME and DEBEMAIL.
 HELP
   exit
 fi
@@ -23,6 +23,10 @@ fi
 cd "$SOURCE"
 if [ -n "$(git status --porcelain)" ]; then
   Say "Commit all changes first: a release has the sources of a commit"
+  exit 1
+fi
+if [ -z "${DEBFULLNAME:-}" ] || [ -z "${DEBEMAIL:-}" ]; then
+  Say "Set DEBFULLNAME and DEBEMAIL to the name and the address of the maintainer"
   exit 1
 fi
 VERSION="$(sed -n 's/^project(GridFEM VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)"

@@ -1,7 +1,9 @@
 // Evaluates the constant function on two triangles. Vectors are made in the library and freed here:
 // that works only if both agree on the alignment of Eigen's memory.
+#include "Base/Types.h"
+
 #include <Base/SimdLanes.h>
-#include <Grid/GridFunctions.h>
+#include <GridFEM/Grid/GridFunctions.h>
 #include <Integrals/Evaluation.h>
 
 #include <iostream>
@@ -15,7 +17,7 @@ int main()
   mesh.triangles = { { 0, 1, 2 }, { 1, 3, 2 } };
   gridfem::SpaceOptions options;
   options.depth = 4;
-  for (int run = 0; run < 100; ++run)
+  for (int run = 0; run < NumberOfRuns; ++run)
   {
     const gridfem::GridFunctions space = gridfem::BuildGridFunctions(mesh, options);
     gridfem::MultiVector ones =
