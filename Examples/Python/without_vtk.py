@@ -34,7 +34,7 @@ def describe(points, cells):
     steps = gridfem.distance(points, cells, sources=[0], Depth=6)
     random = numpy.random.default_rng(0)
     noisy = modes[:, 1] + 0.1 * random.standard_normal(len(points))
-    smooth = gridfem.poisson(points, cells, noisy, ScreeningWeight=100, Depth=6)
+    smooth = gridfem.poisson(points, cells, noisy, on="points", ScreeningWeight=100, Depth=6)
     print("  eigenvalues", numpy.round(eigenvalues, 4))
     print(f"  farthest from point 0: {numpy.nanmax(steps):.2f};"
           f" noise {numpy.std(noisy - modes[:, 1]):.3f},"

@@ -21,7 +21,10 @@ _WORDS = (
     (r"(?:The )?(?:[A-Z]\w* )*Array '(\w+)'", r"\1"),
     (r"\b(?:[Aa] )?Constraint Array", "held"),
     (r"\b(?:[Aa] )?Boundary Flux Array", "flux"),
-    (r"\bSource Array, Selection or Sources", "sources"),
+    (r"by Source Array, Selection or Sources, or leave fragments out with the filter Connectivity",
+     "by sources, or leave out the cells of these components"),
+    (r"Choose fewer points by a Mask Array, or put NaN at the others", "Choose fewer ids"),
+    (r"(instead of the \d+) of the Array\b", r"\1 of the values"),
     (r"needs point data, but '(\w+)' is a cell array\. Convert it with Cell Data to Point Data\.",
      r"needs values at points, but \1 has a row for each cell."))
 

@@ -84,6 +84,8 @@ def misuses(package, points, triangles):
             points, triangles, values=on_cells),
         "gradients has 3 columns. The values have 3, so 9 are needed": lambda: package.poisson(
             points, triangles, points, points),
+        "^source has 3 columns instead of the 1 of the values": lambda: package.diffuse(
+            points, triangles, f, 0.1, source=points),
         "colors must have a number for each point or cell; it is None": lambda: package.stitch(
             points, triangles, None, f),
         "labels must have a number for each point or cell; it is None": lambda: package.stitch(
@@ -556,6 +558,15 @@ class Numpy(unittest.TestCase):
         for message, call in misuses(gridfem, *self.mesh).items():
             with self.subTest(message=message), self.assertRaisesRegex(gridfem.Error, message):
                 call()
+
+    def test_warnings_name_arguments(self):
+        points, cells = unit_sphere(6, 8)
+        three = [numpy.vstack([array + k * step for k in range(3)])
+                 for array, step in ((points, 5.0), (cells, len(points)))]
+        with self.assertWarnsRegex(RuntimeWarning, "Choose points there by sources, or leave out the cells"):
+            gridfem.distance(*three, 0, **OPTIONS)
+        with self.assertWarnsRegex(RuntimeWarning, "3 connected components.* Choose a number above 3[.]"):
+            gridfem.spectrum(*three, 2, **OPTIONS)
 
     def test_what_has_not_converged_warns(self):
         with self.assertWarnsRegex(RuntimeWarning, "Not converged"):
