@@ -69,6 +69,7 @@ class _Results:
 
 def _solve(name, points, cells, given, properties, sources=(), on=None, observed=()):
     points, cells = _inputs.checked(points, cells)
+    properties = _inputs.chosen(properties)
     arrays = {}
     for array, values in given.items():
         if values is None and array not in ("colors", "labels"):
@@ -80,8 +81,7 @@ def _solve(name, points, cells, given, properties, sources=(), on=None, observed
                           "warning.", RuntimeWarning, stacklevel=3)
         arrays[array] = values, place != "cells"
     try:
-        results, messages = _solve_numbered(
-            name, points, cells, arrays, _inputs.chosen(properties), sources, observed)
+        results, messages = _solve_numbered(name, points, cells, arrays, properties, sources, observed)
     except Error as error:
         raise Error(in_words_of_functions(name, str(error), arrays)) from None
     messages = [in_words_of_functions(name, message, arrays) for message in messages]
@@ -128,7 +128,8 @@ def _random_field(points, cells, properties, ids, values):
     is_known = ~numpy.isnan(values)
     if ids.size and not is_known.any():
         raise Error("no value is known: all are NaN")
-    return _solve("GaussianField", points, cells, {}, properties, ids[is_known], values[is_known])
+    return _solve("GaussianField", points, cells, {}, properties, ids[is_known],
+                  observed=values[is_known])
 
 
 def spectrum(points, cells, number=20, **properties):

@@ -251,10 +251,11 @@ class Engines(unittest.TestCase):
         for arrays in ({"held": (rows(len(cells)), False)}, {"held": (rows(len(points), 2), True)},
                        {"held": (rows(7), True)}, {"values": (rows(len(points)), False)}):
             with self.subTest(arrays), self.assertRaisesRegex(ValueError, "row|number for each point"):
-                module.solve("ScreenedPoisson", points, cells, arrays, {"Depth": 3}, [])
+                module.solve("ScreenedPoisson", points, cells, arrays, {"Depth": 3}, [], [])
         with self.assertRaisesRegex(ValueError, "values needs a row for each point"):
             module.solve(
-                "HarmonicInterpolation", points, cells, {"values": (rows(len(cells)), False)}, {"Depth": 3}, [])
+                "HarmonicInterpolation", points, cells, {"values": (rows(len(cells)), False)},
+                {"Depth": 3}, [], [])
 
     def test_arrays_of_other_data_sets_of_vtk(self):
         """The surface of a volume mesh, and triangles of strips."""
