@@ -26,7 +26,7 @@ IN_PARTS = ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation")
 
 PAGE = """# On real meshes
 
-This page shows how all filters cope with {surfaces} real surfaces of {fewest:,} to {most:,} triangles: scans, machine
+This page shows how the filters of its table cope with {surfaces} real surfaces of {fewest:,} to {most:,} triangles: scans, machine
 parts, terrain, anatomy and broken files. They have up to {components:,} components. They are closed and open, of
 high genus, not manifold, not oriented or unwelded, and some have slivers or only slivers.
 

@@ -263,7 +263,7 @@ def parameterize(points, cells, **properties):
     MapType is Conformal, Isometric or Circle. Returns four arrays. The first has the flat vertices (K, 2).
     The second has the triangles between them (T, 3). The third has the point of the mesh at each vertex;
     vertices on a cut share points. The last has the distortion of each triangle (T, 2): the angle in
-    degrees, which is 180 if the triangle is turned over, and the binary logarithm of the area's change.
+    degrees, which is 180 if the triangle is flipped, and the binary logarithm of the area's change.
     """
     results = _solve("Parameterization", points, cells, {}, properties)
     triangles, origin = (results[name].astype(numpy.int64) for name in ("FlatTriangles", "SurfacePoint"))

@@ -29,7 +29,7 @@ void vtkParameterization::Compute(vtkInformationVector** inputs, vtkInformationV
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, nullptr);
   gridfem::ParameterizationSolver::Options options;
-  options.mapType = this->MapType;
+  options.mapType = static_cast<gridfem::MapType>(this->MapType);
   options.holeSize = this->HoleSize;
   options.extraCuts = this->ExtraCuts;
   const gridfem::ParameterizationSolver::Result& result =

@@ -10,23 +10,26 @@
  *
  * MapType determines what the map keeps. Conformal (default) keeps angles, and the scale along the
  * boundary (Sawhney and Crane 2017, Boundary First Flattening). Isometric changes lengths as little
- * as possible (Liu et al. 2008, As Rigid As Possible). Circle maps every component onto a disk,
- * without folds (Tutte 1963).
+ * as possible (symmetric Dirichlet energy, Smith and Schaefer 2015). Circle maps every component
+ * onto a disk, without folds (Tutte 1963).
  *
  * Input port 0: vtkPolyData with polygons or triangle strips.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - cell data, double: `AngleDistortion`, the largest change of the angle between two directions,
- *   degrees. 180 at triangles that the map turns over.
+ *   degrees. 180 at triangles that the map flips: they face down.
  * - cell data, double: `AreaDistortion`, the binary logarithm of the change of area. 0 means no
  *   change, 1 the double area. Areas are relative to a map with the area of the surface.
  * - cell data, vtkIdType: `ChartId`, the number of the component.
  * - point data, float: `TCoords`, active texture coordinates in the unit square, NaN at points that
  *   no polygon uses. They are missing if a point has several places in the map: on a cut, where a
  *   one-sided surface is opened, and where three sheets meet.
- * - field data, vtkIdType, one number per chart: `EulerCharacteristic` and `BoundaryLoops` of the
- *   component as it was given, `FlippedTriangles`, the number of triangles turned over. The filter
- *   warns about them.
+ * - field data, one number per chart: `EulerCharacteristic` and `BoundaryLoops` of the component as
+ *   it was given, `FlippedTriangles` (all vtkIdType), `MeanAngleDistortion` and
+ * `MeanAreaDistortion` (double; the mean over the area, of absolute values). The filter warns about
+ * flipped triangles.
+ * - field data: `Converged` (int, 1), `Iterations` (int, 1) of the isometric map that took most.
+ * Other maps need no iterations. If a map has not converged, the filter warns and keeps it.
  *
  * Output port 1 (vtkPolyData): the flat triangles, beside the surface, with the arrays of the input
  * and of port 0. `TCoords` are always there. Points on cuts are there twice.

@@ -165,6 +165,15 @@ class Text(Rule):
     def test_nothing_is_left_open(self):
         self.assertNothing(self.find(self.OPEN_ENDS), "What is left to do is an issue, not a comment.")
 
+    def test_the_package_exports_its_functions(self):
+        module = ast.parse((ROOT / "Filters/Python/__init__.py").read_text())
+        functions = {node.name for node in module.body
+                     if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")}
+        exported = next(ast.literal_eval(node.value) for node in module.body
+                        if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+        self.assertEqual(exported, sorted(exported))
+        self.assertEqual(set(exported), functions | {"Error"})
+
     def test_no_paths_of_one_machine(self):
         paths = [line for line in self.find(self.MACHINE_PATHS) if "TestRules.py" not in line]
         self.assertNothing(paths, "The sources name no folder of somebody's machine.")

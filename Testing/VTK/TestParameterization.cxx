@@ -73,6 +73,10 @@ TEST(Parameterization, AClosedSurfaceIsCut)
   EXPECT_EQ(field->GetArray("EulerCharacteristic")->GetTuple1(0), 2);
   EXPECT_EQ(field->GetArray("BoundaryLoops")->GetTuple1(0), 0);
   EXPECT_EQ(field->GetArray("FlippedTriangles")->GetTuple1(0), 0);
+  EXPECT_EQ(field->GetArray("Converged")->GetTuple1(0), 1);
+  EXPECT_EQ(field->GetArray("Iterations")->GetTuple1(0), 0);
+  EXPECT_GT(field->GetArray("MeanAngleDistortion")->GetTuple1(0), 0.0);
+  EXPECT_GT(field->GetArray("MeanAreaDistortion")->GetTuple1(0), 0.0);
   for (vtkIdType k = 0; k < flat->GetNumberOfPoints(); ++k)
   {
     const auto point =

@@ -2,7 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Grid/CornerClasses.h"
-#include "Grid/TriangleArea.h"
+#include "Grid/SurfaceSides.h"
 #include "Grid/TriangleSides.h"
 
 #include <algorithm>
@@ -13,17 +13,6 @@ namespace gridfem
 namespace
 {
 
-constexpr Id None = -1;
-
-/// The neighbor across an edge of two triangles. Across other edges, `triangle` is None.
-struct Neighbor
-{
-  Id triangle = None;
-  bool facesAlike = true; // the two triangles run along the edge in opposite directions
-};
-
-using Neighbors = std::vector<std::array<Neighbor, 3>>;
-
 void SortByTriangle(std::vector<TriangleEdge>& edges)
 {
   std::sort(edges.begin(), edges.end(),
@@ -31,115 +20,18 @@ void SortByTriangle(std::vector<TriangleEdge>& edges)
     { return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner; });
 }
 
-Neighbors Classify(
-  const std::vector<TriangleSide>& sides, std::size_t triangles, SurfaceEdges& edges)
+void FindBorders(const std::vector<TriangleSide>& sides, SurfaceEdges& edges)
 {
-  Neighbors neighbors(triangles);
   ForEachEdge(sides,
     [&](const TriangleSide* side, Id count)
     {
-      if (count == 2)
-      {
-        const TriangleEdge& a = side[0].edge;
-        const TriangleEdge& b = side[1].edge;
-        const bool facesAlike = side[0].isUpwards != side[1].isUpwards;
-        neighbors[a.triangle][a.corner] = { b.triangle, facesAlike };
-        neighbors[b.triangle][b.corner] = { a.triangle, facesAlike };
-      }
-      else
+      if (count != 2)
       {
         (count == 1 ? edges.boundary : edges.branching).push_back(side->edge);
       }
     });
   SortByTriangle(edges.boundary);
   SortByTriangle(edges.branching);
-  return neighbors;
-}
-
-/// Spreads the side of the first triangle over its component.
-/// @param members  the first triangle; receives all triangles of the component
-/// @return whether the component has two sides
-bool SpreadSide(
-  const Neighbors& neighbors, std::vector<signed char>& side, std::vector<Id>& members)
-{
-  bool hasTwoSides = true;
-  for (std::size_t k = 0; k < members.size(); ++k)
-  {
-    const Id triangle = members[k];
-    for (const Neighbor& neighbor : neighbors[triangle])
-    {
-      if (neighbor.triangle == None)
-      {
-        continue;
-      }
-      const auto wanted =
-        static_cast<signed char>(neighbor.facesAlike ? side[triangle] : -side[triangle]);
-      if (side[neighbor.triangle] == 0)
-      {
-        side[neighbor.triangle] = wanted;
-        members.push_back(neighbor.triangle);
-      }
-      hasTwoSides = hasTwoSides && side[neighbor.triangle] == wanted;
-    }
-  }
-  return hasTwoSides;
-}
-
-/// Six times the volume of the cone from a point to a triangle.
-double ConeOver(const TriangleMesh& mesh, Id triangle, const Vec3& tip)
-{
-  const std::array<Id, 3>& corner = mesh.triangles[triangle];
-  const Vec3 a = mesh.points[corner[0]] - tip;
-  const Vec3 b = mesh.points[corner[1]] - tip;
-  return a.cross(b).dot(mesh.points[corner[2]] - tip);
-}
-
-/// Returns 1 if a component faces as the side of its first triangle, or -1 if it faces the other
-/// way.
-int SideOf(const TriangleMesh& mesh, const Neighbors& neighbors, const std::vector<Id>& members,
-  const std::vector<signed char>& side)
-{
-  double area = 0.0;
-  double volume = 0.0;
-  bool isClosed = true;
-  bool facesAlike = true;
-  const Vec3& tip = mesh.points[mesh.triangles[members.front()][0]];
-  for (const Id t : members)
-  {
-    area += side[t] * AreaOf(mesh, t);
-    volume += side[t] * ConeOver(mesh, t, tip);
-    facesAlike = facesAlike && side[t] == side[members.front()];
-    for (const Neighbor& neighbor : neighbors[t])
-    {
-      isClosed = isClosed && neighbor.triangle != None;
-    }
-  }
-  return (isClosed && !facesAlike ? volume : area) < 0.0 ? -1 : 1;
-}
-
-void FindSides(const TriangleMesh& mesh, const Neighbors& neighbors, SurfaceEdges& edges)
-{
-  edges.side.assign(mesh.triangles.size(), 0);
-  std::vector<char> isSeen(mesh.triangles.size(), 0);
-  std::vector<Id> members;
-  for (Id first = 0; first < static_cast<Id>(mesh.triangles.size()); ++first)
-  {
-    if (isSeen[first])
-    {
-      continue;
-    }
-    members.assign(1, first);
-    edges.side[first] = 1;
-    const bool hasTwoSides = SpreadSide(neighbors, edges.side, members);
-    const int factor = hasTwoSides ? SideOf(mesh, neighbors, members, edges.side) : 0;
-    for (const Id t : members)
-    {
-      edges.side[t] = static_cast<signed char>(factor * edges.side[t]);
-      isSeen[t] = 1;
-    }
-    ++edges.numberOfComponents;
-    edges.numberOfOneSided += hasTwoSides ? 0 : 1;
-  }
 }
 
 void RequireTriangle(Id triangle, const TriangleMesh& mesh)
@@ -222,8 +114,22 @@ SurfaceEdges FindSurfaceEdges(const TriangleMesh& mesh, bool weldCoincidentPoint
   const Array<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, {}, threads) : Array<Index>();
   SurfaceEdges edges;
-  const Neighbors neighbors = Classify(SortedSides(mesh, pointClass), mesh.triangles.size(), edges);
-  FindSides(mesh, neighbors, edges);
+  const std::vector<TriangleSide> sides = SortedSides(mesh, pointClass);
+  FindBorders(sides, edges);
+  const Neighbors neighbors = FindNeighbors(sides, mesh.triangles.size());
+  for (const SurfaceComponent& component : FindComponents(mesh, neighbors, edges.side))
+  {
+    ++edges.numberOfComponents;
+    if (component.hasTwoSides)
+    {
+      continue;
+    }
+    ++edges.numberOfOneSided;
+    for (const Id t : component.triangles)
+    {
+      edges.side[t] = 0;
+    }
+  }
   return edges;
 }
 

@@ -64,20 +64,18 @@ public:
     {
       leaving_[next[this->From(h)]++] = h;
     }
-    isOnCut_.assign(node_.count, 0);
   }
 
   std::vector<HalfEdge> Find(bool hasHandles, int extraCuts)
   {
-    Index root = loops_.empty() ? 0 : loops_.front();
-    isOnCut_[root] = 1;
-    Index farthest = this->MeasureFromCuts();
-    if (loops_.empty())
+    const Index farthest = this->MeasureFrom(loops_.empty() ? 0 : loops_.front());
+    if (hasHandles) // loops around a handle are short if they begin there
     {
-      isOnCut_[root] = 0;
-      root = farthest;
-      isOnCut_[root] = 1;
-      this->MeasureFromCuts();
+      this->MeasureFrom(this->From(this->EdgesAroundHandles().back()));
+    }
+    else if (loops_.empty())
+    {
+      this->MeasureFrom(farthest);
     }
     for (const Index loop : loops_)
     {
@@ -128,6 +126,14 @@ private:
     }
     const double circle = std::sqrt(4.0 * 3.14159265358979323846 * area);
     return length <= (cuts_.empty() ? ShortUncut : ShortCut) * circle;
+  }
+
+  /// Makes a node the only one on cuts. Returns the farthest from it.
+  Index MeasureFrom(Index node)
+  {
+    isOnCut_.assign(node_.count, 0);
+    isOnCut_[node] = 1;
+    return this->MeasureFromCuts();
   }
 
   /// Finds shortest paths from all nodes on cuts to all nodes (Dijkstra). Returns the farthest.

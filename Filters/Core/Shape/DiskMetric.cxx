@@ -115,9 +115,9 @@ std::vector<ChartDistortion> MeasureDistortion(
     const double keeps = std::hypot(J(0, 0) + J(1, 1), J(1, 0) - J(0, 1));
     const double mirrors = std::hypot(J(0, 0) - J(1, 1), J(1, 0) + J(0, 1));
     ChartDistortion distortion{};
-    distortion.isTurned = !(TwiceAreaInPlane(corner, plane) > 0.0);
+    distortion.isFlipped = !(TwiceAreaInPlane(corner, plane) > 0.0);
     distortion.angle =
-      distortion.isTurned ? 180.0 : 2.0 * std::asin(std::min(mirrors / keeps, 1.0)) / Degree;
+      distortion.isFlipped ? 180.0 : 2.0 * std::asin(std::min(mirrors / keeps, 1.0)) / Degree;
     distortion.area =
       std::log2(std::max(std::abs(J.determinant()), std::numeric_limits<double>::min()));
     distortions.push_back(distortion);

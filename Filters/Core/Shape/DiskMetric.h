@@ -31,17 +31,17 @@ std::vector<SideLengths> MeasureTriangles(const Disk& disk);
 struct ChartDistortion
 {
   /// The largest change of the angle between two directions, degrees. 0: angles stay. 180: the
-  /// triangle collapses or is turned over.
+  /// triangle collapses or is flipped.
   double angle;
   double area; // binary logarithm of the ratio of areas: 0 if it stays, 1 if it doubles
-  bool isTurned;
+  bool isFlipped;
 };
 
 /// @param plane  a row of two coordinates for each vertex
 std::vector<ChartDistortion> MeasureDistortion(
   const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane);
 
-/// Total area of the triangles in the plane, negative if turned over. Filled holes do not count.
+/// Total area of the triangles in the plane, negative if flipped. Filled holes do not count.
 double AreaInPlane(const Disk& disk, const MultiVector& plane);
 
 } // namespace gridfem

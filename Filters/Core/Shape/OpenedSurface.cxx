@@ -1,8 +1,9 @@
 #include "Shape/OpenedSurface.h"
 
 #include "Base/Errors.h"
+#include "Grid/CornerClasses.h"
+#include "Grid/SurfaceSides.h"
 #include "Grid/TriangleArea.h"
-#include "Grid/TriangleSides.h"
 #include "Shape/CutGraph.h"
 
 #include <algorithm>
@@ -25,66 +26,10 @@ struct Sheets
   std::vector<std::vector<Index>> member; // triangles of each component, ascending
 };
 
-struct AcrossEdge
+/// The side of a triangle after it was turned, which exchanges its corners 1 and 2.
+HalfEdge AfterTurn(HalfEdge corner, bool isTurned)
 {
-  HalfEdge half = -1;
-  bool isOpposite = true; // the two triangles face the same way
-};
-
-/// Returns the neighbor across each half edge of the triangles of the mesh.
-std::vector<AcrossEdge> FindNeighbors(const TriangleMesh& mesh, const Array<Index>& place)
-{
-  std::vector<AcrossEdge> neighbors(3 * mesh.triangles.size());
-  ForEachEdge(SortedSides(mesh, place),
-    [&](const TriangleSide* side, Id count)
-    {
-      if (count != 2)
-      {
-        return;
-      }
-      const auto half = [&](int k)
-      { return static_cast<HalfEdge>(3 * side[k].edge.triangle + side[k].edge.corner); };
-      const bool isOpposite = side[0].isUpwards != side[1].isUpwards;
-      neighbors[half(0)] = { half(1), isOpposite };
-      neighbors[half(1)] = { half(0), isOpposite };
-    });
-  return neighbors;
-}
-
-/// Finds the triangles that are connected to a triangle, and which of them have to be turned.
-std::vector<Index> GatherConnected(Index first, const TriangleMesh& mesh,
-  const std::vector<AcrossEdge>& neighbors, std::vector<signed char>& side)
-{
-  std::vector<Index> members{ first };
-  side[first] = 1;
-  double area = AreaOf(mesh, first);
-  for (std::size_t k = 0; k < members.size(); ++k)
-  {
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      const AcrossEdge& neighbor = neighbors[3 * members[k] + corner];
-      const Index next = neighbor.half / 3;
-      if (neighbor.half >= 0 && side[next] == 0)
-      {
-        side[next] =
-          static_cast<signed char>(neighbor.isOpposite ? side[members[k]] : -side[members[k]]);
-        area += side[next] * AreaOf(mesh, next);
-        members.push_back(next);
-      }
-    }
-  }
-  for (const Index t : members)
-  {
-    side[t] = static_cast<signed char>(area < 0.0 ? -side[t] : side[t]);
-  }
-  std::sort(members.begin(), members.end());
-  return members;
-}
-
-/// The half edge of a triangle after it was turned, which exchanges its corners 1 and 2.
-HalfEdge AfterTurn(HalfEdge h, bool isTurned)
-{
-  return isTurned ? h - h % 3 + (2 - h % 3) : h;
+  return isTurned ? 2 - corner : corner;
 }
 
 Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int threads)
@@ -96,23 +41,20 @@ Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int thre
   {
     place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh, threads), threads);
   }
-  const std::vector<AcrossEdge> neighbors = FindNeighbors(mesh, place);
+  const Neighbors neighbors = FindNeighbors(SortedSides(mesh, place), mesh.triangles.size());
+  std::vector<signed char> side;
   Sheets sheets;
-  std::vector<signed char> side(mesh.triangles.size(), 0);
   std::vector<Index> number(mesh.triangles.size(), -1);
-  const auto isTriangle = [&](Index t)
+  for (SurfaceComponent& component : FindComponents(mesh, neighbors, side))
   {
-    const auto& c = mesh.triangles[t];
-    return place[c[0]] != place[c[1]] && place[c[1]] != place[c[2]] && place[c[2]] != place[c[0]];
-  };
-  for (Index t = 0; t < static_cast<Index>(mesh.triangles.size()); ++t)
-  {
-    if (side[t] != 0 || !isTriangle(t))
+    const auto& first = mesh.triangles[component.triangles.front()];
+    if (IsDegenerate({ place[first[0]], place[first[1]], place[first[2]] }))
     {
       continue;
     }
+    std::sort(component.triangles.begin(), component.triangles.end());
     sheets.member.emplace_back();
-    for (const Index member : GatherConnected(t, mesh, neighbors, side))
+    for (const Id member : component.triangles)
     {
       number[member] = sheets.triangles.Count();
       sheets.member.back().push_back(number[member]);
@@ -123,16 +65,19 @@ Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int thre
       sheets.isTurned.push_back(isTurned ? 1 : 0);
     }
   }
-  for (std::size_t h = 0; h < neighbors.size(); ++h)
+  const auto halfEdge = [&](Id t, int corner)
+  { return 3 * number[t] + AfterTurn(static_cast<HalfEdge>(corner), side[t] < 0); };
+  for (Id t = 0; t < static_cast<Id>(neighbors.size()); ++t)
   {
-    const AcrossEdge& neighbor = neighbors[h];
-    const auto t = static_cast<Index>(h / 3);
-    const Index other = neighbor.half / 3;
-    // Otherwise the component has one side only, and ends here.
-    if (neighbor.half >= 0 && (side[t] == side[other]) == neighbor.isOpposite)
+    for (int corner = 0; corner < 3; ++corner)
     {
-      sheets.triangles.twin[3 * number[t] + AfterTurn(static_cast<HalfEdge>(h), side[t] < 0) % 3] =
-        3 * number[other] + AfterTurn(neighbor.half, side[other] < 0) % 3;
+      const Neighbor& neighbor = neighbors[t][corner];
+      // Otherwise the component has one side only, and ends here.
+      if (neighbor.triangle != Neighbor::None &&
+          (side[t] == side[neighbor.triangle]) == neighbor.facesAlike)
+      {
+        sheets.triangles.twin[halfEdge(t, corner)] = halfEdge(neighbor.triangle, neighbor.corner);
+      }
     }
   }
   return sheets;

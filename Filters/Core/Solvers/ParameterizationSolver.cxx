@@ -2,11 +2,14 @@
 
 #include "Shape/ChartLayout.h"
 #include "Shape/DiskMap.h"
+#include "Shape/IsometricMap.h"
 #include "Solvers/LocalSurface.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 namespace gridfem
@@ -17,33 +20,55 @@ namespace
 using Chart = ParameterizationSolver::Chart;
 using Flat = ParameterizationSolver::Flat;
 
-/// Scales a map so that its area is that of the surface.
-void KeepArea(const Disk& disk, const std::vector<SideLengths>& sides, MultiVector& plane)
+PlaneMap FlattenDisk(DiskMap& map, const Disk& disk, MapType type, const Job& job)
 {
-  double area = 0.0;
-  for (std::size_t t = 0; t < sides.size(); ++t)
+  if (type == MapType::Circle)
   {
-    area += disk.triangleOf[t] < 0 ? 0.0 : sides[t].Area();
+    return { map.ToCircle(job) };
   }
-  const double flat = AreaInPlane(disk, plane);
-  if (flat > 0.0)
+  if (type == MapType::Conformal)
   {
-    plane *= std::sqrt(area / flat);
+    return { map.Conformal(job) };
   }
+  MultiVector start = map.Conformal(job.Part(0.0, 0.1));
+  if (map.HasFlipped(start))
+  {
+    MultiVector circle = map.ToCircle(job.Part(0.1, 0.2));
+    start = map.HasFlipped(circle) ? std::move(start) : std::move(circle);
+  }
+  return MapIsometrically(disk, map.Sides(), std::move(start), job.Part(0.2, 1.0));
 }
 
-MultiVector FlattenDisk(DiskMap& map, const Disk& disk, FlatMap kind, const Job& job)
+/// Adds the vertices of a disk that are points of the mesh. Returns their numbers, -1 at others.
+std::vector<Id> AddVertices(const Disk& disk, Flat& flat)
 {
-  if (kind == FlatMap::Circle)
+  std::vector<Id> vertexOf(disk.points.size(), -1);
+  for (std::size_t v = 0; v < disk.points.size(); ++v)
   {
-    MultiVector plane = map.ToCircle(job);
-    KeepArea(disk, map.Sides(), plane);
-    return plane;
+    if (disk.pointOf[v] >= 0)
+    {
+      vertexOf[v] = static_cast<Id>(flat.pointOf.size());
+      flat.pointOf.push_back(disk.pointOf[v]);
+    }
   }
-  const bool isIsometric = kind == FlatMap::Isometric;
-  MultiVector plane = map.Conformal(job.Part(0.0, isIsometric ? 0.2 : 1.0));
-  KeepArea(disk, map.Sides(), plane);
-  return isIsometric ? map.Isometric(std::move(plane), job.Part(0.2, 1.0)) : plane;
+  return vertexOf;
+}
+
+/// Places the vertices of all disks as their maps do.
+void PlaceVertices(
+  const std::vector<MultiVector>& planes, const std::vector<std::vector<Id>>& vertexOf, Flat& flat)
+{
+  flat.points.resize(static_cast<Id>(flat.pointOf.size()), 2);
+  for (std::size_t k = 0; k < planes.size(); ++k)
+  {
+    for (std::size_t v = 0; v < vertexOf[k].size(); ++v)
+    {
+      if (vertexOf[k][v] >= 0)
+      {
+        flat.points.row(vertexOf[k][v]) = planes[k].row(static_cast<Id>(v));
+      }
+    }
+  }
 }
 
 /// Notes a vertex for each point of the mesh, also for points that coincide. Returns whether a
@@ -85,9 +110,8 @@ void AddTriangles(const Disk& disk, const std::vector<SideLengths>& sides, const
     const ChartDistortion& distortion = distortions[t];
     flat.angle.push_back(distortion.angle);
     flat.area.push_back(distortion.area);
-    flat.isTurned.push_back(distortion.isTurned ? 1 : 0);
     const double area = sides[t].Area();
-    chart.turned += distortion.isTurned ? 1 : 0;
+    chart.flipped += distortion.isFlipped ? 1 : 0;
     chart.angle += area * distortion.angle;
     chart.area += area * std::abs(distortion.area);
     total += area;
@@ -125,7 +149,6 @@ void SortLikeMesh(Flat& flat)
   Reorder(triangles, flat.chart);
   Reorder(triangles, flat.angle);
   Reorder(triangles, flat.area);
-  Reorder(triangles, flat.isTurned);
   Reorder(triangles, flat.triangleOf);
   const std::vector<std::size_t> vertices = OrderOf(flat.pointOf);
   Reorder(vertices, flat.pointOf);
@@ -150,25 +173,42 @@ void SortLikeMesh(Flat& flat)
   }
 }
 
-std::vector<std::string> WarningsOfTurned(const std::vector<Chart>& charts, Id triangles)
+std::vector<std::string> WarningsOf(const std::vector<Chart>& charts, Id triangles)
 {
-  Id turned = 0;
+  Id flipped = 0;
+  Id unsettled = 0;
+  int steps = 0;
+  double gain = 0.0;
   for (const Chart& chart : charts)
   {
-    turned += chart.turned;
+    flipped += chart.flipped;
+    unsettled += chart.hasConverged ? 0 : 1;
+    steps = chart.hasConverged ? steps : std::max(steps, chart.steps);
+    gain = chart.hasConverged ? gain : std::max(gain, chart.gain);
   }
-  if (turned == 0)
+  std::vector<std::string> warnings;
+  if (unsettled > 0)
   {
-    return {};
+    std::ostringstream text;
+    text << std::setprecision(2) << "The isometric map of " << unsettled << " of " << charts.size()
+         << " charts has not converged after " << steps
+         << " steps. Another step would lower its energy by " << 100.0 * gain
+         << " %. The result is kept. Raise Extra Cuts.";
+    warnings.push_back(text.str());
   }
-  return { std::to_string(turned) + " of " + std::to_string(triangles) +
-           " triangles are turned over in the flat map. Their Angle Distortion is 180. Extra Cuts "
-           "toward thin parts, or the Map Type Circle, can avoid it." };
+  if (flipped > 0)
+  {
+    warnings.push_back(
+      std::to_string(flipped) + " of " + std::to_string(triangles) +
+      " triangles are flipped in the flat map. Their Angle Distortion is 180. Raise Extra Cuts, or "
+      "set Map Type to Circle.");
+  }
+  return warnings;
 }
 
 } // namespace
 
-void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, const Job& job)
+void ParameterizationSolver::Flatten(const TriangleMesh& mesh, MapType type, const Job& job)
 {
   result_ = {};
   Flat& flat = result_.flat;
@@ -183,41 +223,27 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, FlatMap kind, con
                          static_cast<double>(mesh.triangles.size()); // with those of filled holes
     const double next = std::min(done + ShareOfMaps * share, ShareOfMaps);
     DiskMap map(disk);
-    planes.push_back(FlattenDisk(map, disk, kind, job.Part(done, next)));
+    PlaneMap plane = FlattenDisk(map, disk, type, job.Part(done, next));
     done = next;
-    vertexOf.emplace_back(disk.points.size(), -1);
-    for (std::size_t v = 0; v < disk.points.size(); ++v)
-    {
-      if (disk.pointOf[v] >= 0)
-      {
-        vertexOf.back()[v] = static_cast<Id>(flat.pointOf.size());
-        flat.pointOf.push_back(disk.pointOf[v]);
-      }
-    }
+    vertexOf.push_back(AddVertices(disk, flat));
     result_.splitsPoints = NoteVertices(mesh, disk, vertexOf.back(), flat) || result_.splitsPoints;
     Chart chart;
     chart.topology = disk.topology;
-    AddTriangles(disk, map.Sides(), planes.back(), vertexOf.back(),
+    chart.hasConverged = plane.hasConverged;
+    chart.steps = plane.steps;
+    chart.gain = plane.gain;
+    AddTriangles(disk, map.Sides(), plane.plane, vertexOf.back(),
       static_cast<Index>(result_.charts.size()), chart, flat);
     result_.charts.push_back(chart);
+    planes.push_back(std::move(plane.plane));
   }
   job.Check(0.85);
   ArrangeCharts(planes);
-  flat.points.resize(static_cast<Id>(flat.pointOf.size()), 2);
-  for (std::size_t k = 0; k < planes.size(); ++k)
-  {
-    for (std::size_t v = 0; v < vertexOf[k].size(); ++v)
-    {
-      if (vertexOf[k][v] >= 0)
-      {
-        flat.points.row(vertexOf[k][v]) = planes[k].row(static_cast<Id>(v));
-      }
-    }
-  }
+  PlaceVertices(planes, vertexOf, flat);
   job.Check(0.9);
   SortLikeMesh(flat);
   flat.texture = flat.points / flat.points.maxCoeff();
-  result_.warnings = WarningsOfTurned(result_.charts, static_cast<Id>(flat.triangles.size()));
+  result_.warnings = WarningsOf(result_.charts, static_cast<Id>(flat.triangles.size()));
 }
 
 const ParameterizationSolver::Result& ParameterizationSolver::Update(
@@ -237,10 +263,9 @@ const ParameterizationSolver::Result& ParameterizationSolver::Update(
   stages.Run(
     OpenStage, key, [&] { disks_ = OpenToDisks(surface.Mesh(), opening, work.Part(0.1, 0.2)); });
   key = {};
-  key.Add(stages.Version(OpenStage)).Add(options.mapType);
-  stages.Run(SolveStage, key,
-    [&]
-    { this->Flatten(surface.Mesh(), static_cast<FlatMap>(options.mapType), work.Part(0.2, 1.0)); });
+  key.Add(stages.Version(OpenStage)).Add(static_cast<int>(options.mapType));
+  stages.Run(
+    SolveStage, key, [&] { this->Flatten(surface.Mesh(), options.mapType, work.Part(0.2, 1.0)); });
   job.Check(1.0);
   return result_;
 }

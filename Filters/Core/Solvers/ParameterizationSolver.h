@@ -13,15 +13,17 @@
 namespace gridfem
 {
 
-enum class FlatMap
+/// What a flat map keeps.
+enum class MapType
 {
   Conformal, // keeps angles
   Isometric, // changes lengths as little as possible
   Circle     // onto a disk, without folds
 };
 
-/// Maps every connected component to the plane. A component that is no disk is opened first (see
-/// OpenToDisks). The maps are those of DiskMap. One process has to hold the surface.
+/// Maps every connected component to the plane. A component that is not a disk is opened first (see
+/// OpenToDisks). The maps are those of DiskMap and IsometricMap. One process has to hold the
+/// surface.
 class ParameterizationSolver
 {
 public:
@@ -29,14 +31,14 @@ public:
 
   struct Options
   {
-    int mapType = static_cast<int>(FlatMap::Conformal);
+    MapType mapType = MapType::Conformal;
     double holeSize = 0.5; // see OpeningOptions
     int extraCuts = 0;
 
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
     {
-      visit("MapType", self.mapType, Within(0, static_cast<double>(FlatMap::Circle)));
+      visit("MapType", self.mapType, Within(0, static_cast<double>(MapType::Circle)));
       visit("HoleSize", self.holeSize, Within(0.0, 1.0));
       visit("ExtraCuts", self.extraCuts, Within(0, 100));
     }
@@ -46,9 +48,12 @@ public:
   struct Chart
   {
     Topology topology;  // before it was opened
-    Id turned = 0;      // triangles that the map turns over
+    Id flipped = 0;     // triangles that the map turns over
     double angle = 0.0; // mean of the angle distortion over the area, degrees
     double area = 0.0;  // mean absolute area distortion over the area
+    bool hasConverged = true;
+    int steps = 0;     // of an isometric map
+    double gain = 0.0; // see PlaneMap
   };
 
   /// The flat surface. Its vertices are in the order of their points. Cuts run between vertices of
@@ -59,12 +64,11 @@ public:
     MultiVector texture;      // the same in the unit square
     std::vector<Id> vertexOf; // a vertex of each point of the mesh; -1: none
     std::vector<Id> pointOf;  // point of the mesh
-    std::vector<std::array<Id, 3>> triangles; // face up, unless turned over
+    std::vector<std::array<Id, 3>> triangles; // face up, unless flipped
     std::vector<Id> triangleOf;               // ascending: triangle of the mesh
     std::vector<Index> chart;                 // of each triangle
     std::vector<double> angle;                // ChartDistortion, per triangle
     std::vector<double> area;
-    std::vector<char> isTurned;
   };
 
   struct Result
@@ -84,7 +88,7 @@ public:
     const SurfaceOptions& surfaceOptions = SurfaceDefaults(), const Job& job = {});
 
 private:
-  void Flatten(const TriangleMesh& mesh, FlatMap kind, const Job& job);
+  void Flatten(const TriangleMesh& mesh, MapType type, const Job& job);
 
   std::vector<Disk> disks_;
   Result result_;

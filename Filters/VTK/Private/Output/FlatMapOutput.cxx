@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace gridfem
@@ -46,22 +47,34 @@ void CopyArrays(vtkDataSetAttributes* input, vtkIdType count, const char* kind,
   }
 }
 
-/// Adds one number per chart.
+/// Adds what is known about each chart, and whether all of them have converged.
 void AddChartNumbers(const std::vector<ParameterizationSolver::Chart>& charts, vtkPolyData* output)
 {
   std::vector<Id> euler;
   std::vector<Id> loops;
-  std::vector<Id> turned;
+  std::vector<Id> flipped;
+  std::vector<double> angle;
+  std::vector<double> area;
+  bool hasConverged = true;
+  int steps = 0;
   for (const ParameterizationSolver::Chart& chart : charts)
   {
     euler.push_back(chart.topology.euler);
     loops.push_back(chart.topology.loops);
-    turned.push_back(chart.turned);
+    flipped.push_back(chart.flipped);
+    angle.push_back(chart.angle);
+    area.push_back(chart.area);
+    hasConverged = hasConverged && chart.hasConverged;
+    steps = std::max(steps, chart.steps);
   }
   vtkFieldData* field = output->GetFieldData();
   field->AddArray(MakeIdArray("EulerCharacteristic", euler));
   field->AddArray(MakeIdArray("BoundaryLoops", loops));
-  field->AddArray(MakeIdArray("FlippedTriangles", turned));
+  field->AddArray(MakeIdArray("FlippedTriangles", flipped));
+  AddFieldNumbers(output, "MeanAngleDistortion", angle);
+  AddFieldNumbers(output, "MeanAreaDistortion", area);
+  AddFieldInt(output, "Converged", hasConverged ? 1 : 0);
+  AddFieldInt(output, "Iterations", steps);
 }
 
 } // namespace
