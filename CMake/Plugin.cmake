@@ -19,13 +19,13 @@ elseif (PARAVIEW_USE_QT)
   message(STATUS
     "ParaView will have no help pages: they need cmark-gfm and Qt${PARAVIEW_QT_MAJOR_VERSION}Help")
 endif ()
-# What the plugin adds to the menus of the window.
+# What the plugin adds to the window, and its choices for filters that the user makes there.
 set(GRIDFEM_WINDOW OFF)
 if (PARAVIEW_USE_QT AND Qt${PARAVIEW_QT_MAJOR_VERSION}Widgets_FOUND AND TARGET ParaView::pqApplicationComponents)
   set(GRIDFEM_WINDOW ON)
 elseif (PARAVIEW_USE_QT)
-  message(STATUS "The window will have no examples, sections and words to search for: they need "
-    "Qt${PARAVIEW_QT_MAJOR_VERSION}Widgets")
+  message(STATUS "The window will have no examples, sections and words to search for, and new filters only their "
+    "defaults: the rest needs Qt${PARAVIEW_QT_MAJOR_VERSION}Widgets")
 endif ()
 paraview_plugin_build(
   PLUGINS ${plugins}

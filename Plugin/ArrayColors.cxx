@@ -1,33 +1,34 @@
 #include "ArrayColors.h"
 
 #include "ColorMaps.h"
+#include "Hints.h"
 #include "ParaViewVersions.h"
 #include "Watch.h"
 
-#include "vtkClientServerInterpreter.h"
-#include "vtkClientServerInterpreterInitializer.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkNew.h"
-#include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
 #include "vtkPVXMLElement.h"
+#include "vtkSMCoreUtilities.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMProxyInitializationHelper.h"
 #include "vtkSMProxyIterator.h"
 #include "vtkSMProxyManager.h"
+#include "vtkSMProxySelectionModel.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMTransferFunctionManager.h"
 #include "vtkSMTransferFunctionProxy.h"
+#include "vtkSMViewProxy.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -44,8 +45,6 @@ enum class Colors
   Categorical
 };
 
-constexpr const char* MapEnding = ".PVLookupTable"; // of the name under which a map is registered
-
 /// The colors that a hint chooses for arrays.
 struct Choice
 {
@@ -55,11 +54,25 @@ struct Choice
   bool stepsApart = false;
   double limit = 0.0; // values farther from 0 have the last color; 0: no limit
 
-  bool Fits(const std::string& name) const
+  explicit Choice(vtkPVXMLElement* hint)
   {
-    const bool isStart = !array.empty() && array.back() == '*';
-    return isStart ? name.compare(0, array.size() - 1, array, 0, array.size() - 1) == 0
-                   : name == array;
+    const std::string name = hint->GetAttributeOrEmpty("colors");
+    array = hint->GetAttributeOrEmpty("array");
+    hint->GetScalarAttribute("port", &port);
+    hint->GetScalarAttribute("limit", &limit);
+    stepsApart = hint->GetAttributeOrEmpty("steps") == std::string("apart");
+    colors = name == "sequential"    ? Colors::Sequential
+             : name == "stripes"     ? Colors::Stripes
+             : name == "categorical" ? Colors::Categorical
+                                     : Colors::Diverging;
+  }
+
+  bool Fits(const std::string& name, vtkSMProxy* filter) const
+  {
+    const std::string wanted = port == 0 ? gridfem::ResultName(filter, array) : array;
+    const bool isStart = !wanted.empty() && wanted.back() == '*';
+    return isStart ? name.compare(0, wanted.size() - 1, wanted, 0, wanted.size() - 1) == 0
+                   : name == wanted;
   }
 };
 
@@ -71,11 +84,23 @@ struct Range
   bool IsKnown() const { return low <= high; }
 };
 
-bool UserHasColors(const std::string& array)
+/// The name of an array as ParaView uses it in the names of maps and settings.
+std::string NameInMaps(vtkPVArrayInformation* array)
+{
+  return vtkSMCoreUtilities::SanitizeName(array->GetName());
+}
+
+/// The name under which the map of an array is registered.
+std::string MapOf(vtkPVArrayInformation* array)
+{
+  return NameInMaps(array) + ".PVLookupTable";
+}
+
+bool UserHasColors(vtkPVArrayInformation* array)
 {
   vtkSMSettings* settings = vtkSMSettings::GetInstance();
-  return settings->HasSetting((".standard_presets." + array).c_str()) ||
-         settings->HasSetting((".array_lookup_tables." + array).c_str());
+  return settings->HasSetting((".standard_presets." + NameInMaps(array)).c_str()) ||
+         settings->HasSetting((".array_lookup_tables." + NameInMaps(array)).c_str());
 }
 
 /// The range that a color map should have for an array. Unknown for several components.
@@ -131,20 +156,26 @@ bool HasOurRange(vtkSMProxy* map, bool hasLimit)
   return std::abs(range[0] - noted[0]) <= tolerance && std::abs(range[1] - noted[1]) <= tolerance;
 }
 
-/// Whether something visible uses a map, other than a filter. The filter's input will be hidden.
+/// Whether something visible uses a map, other than a filter. The first Apply will hide the input
+/// of the filter in the active view.
 bool IsUsedElsewhere(vtkSMProxy* map, vtkSMSourceProxy* filter)
 {
-  const vtkSMProxy* hidden = vtkSMPropertyHelper(filter, "Input", true).GetAsProxy();
+  const vtkSMProxy* input = vtkSMPropertyHelper(filter, "Input", true).GetAsProxy();
+  vtkSMSessionProxyManager* proxies = filter->GetSessionProxyManager();
+  vtkSMProxySelectionModel* active = proxies->GetSelectionModel("ActiveView");
+  const vtkSMProxy* applied =
+    active && gridfem::ViewsOf(filter, 0).empty() ? active->GetCurrentProxy() : nullptr;
   vtkNew<vtkSMProxyIterator> each;
-  each->SetSessionProxyManager(filter->GetSessionProxyManager());
+  each->SetSessionProxyManager(proxies);
   each->SetModeToOneGroup();
   for (each->Begin("representations"); !each->IsAtEnd(); each->Next())
   {
     vtkSMProxy* shown = each->GetProxy();
     const vtkSMProxy* source = vtkSMPropertyHelper(shown, "Input", true).GetAsProxy();
-    if (source && source != filter && source != hidden &&
+    if (source && source != filter &&
         vtkSMPropertyHelper(shown, "Visibility", true).GetAsInt() != 0 &&
-        vtkSMPropertyHelper(shown, "LookupTable", true).GetAsProxy() == map)
+        vtkSMPropertyHelper(shown, "LookupTable", true).GetAsProxy() == map &&
+        !(source == input && applied && vtkSMViewProxy::FindView(shown) == applied))
     {
       return true;
     }
@@ -175,8 +206,10 @@ void SetColors(vtkSMProxy* map, vtkPVArrayInformation* array, Colors colors)
 class ArrayFollower
 {
 public:
+  /// The ranges in a state fit its picture, and the filter that it brings has not changed.
   ArrayFollower(vtkSMSourceProxy* filter, Choice choice)
-    : filter_(filter), choice_(std::move(choice))
+    : filter_(filter), choice_(std::move(choice)),
+      hasChanged_(!filter->GetSessionProxyManager()->GetInLoadXMLState())
   {
   }
 
@@ -193,8 +226,8 @@ public:
     const bool grows = !hasChanged_ && !choice_.stepsApart && this->GetTime() != time_;
     for (vtkPVArrayInformation* array : this->Arrays())
     {
-      vtkSMProxy* map = filter_->GetSessionProxyManager()->GetProxy(
-        "lookup_tables", (array->GetName() + std::string(MapEnding)).c_str());
+      vtkSMProxy* map =
+        filter_->GetSessionProxyManager()->GetProxy("lookup_tables", MapOf(array).c_str());
       const Range wanted = WantedRange(array, choice_);
       if (map && wanted.IsKnown() && HasOurRange(map, choice_.limit > 0.0))
       {
@@ -215,7 +248,7 @@ public:
     }
     for (vtkPVArrayInformation* array : this->Arrays())
     {
-      if (name == array->GetName() + std::string(MapEnding) && !UserHasColors(array->GetName()))
+      if (name == MapOf(array) && !UserHasColors(array))
       {
         SetColors(map, array, choice_.colors);
         const Range wanted = WantedRange(array, choice_);
@@ -235,6 +268,8 @@ public:
   }
 
 private:
+  static constexpr double NotYet = std::numeric_limits<double>::lowest();
+
   double GetTime() const { return filter_->GetDataInformation(choice_.port)->GetTime(); }
 
   /// The arrays that fit, with points before cells: a map serves both arrays of a name.
@@ -252,7 +287,7 @@ private:
         const bool isKnown = std::any_of(found.begin(), found.end(),
           [array](auto* other)
           { return array->GetName() && array->GetName() == std::string(other->GetName()); });
-        if (array->GetName() && !isKnown && choice_.Fits(array->GetName()))
+        if (array->GetName() && !isKnown && choice_.Fits(array->GetName(), filter_))
         {
           found.push_back(array);
         }
@@ -263,67 +298,33 @@ private:
 
   vtkWeakPointer<vtkSMSourceProxy> filter_;
   Choice choice_;
-  double time_ = 0.0;
   bool hasChanged_ = true;
+  double time_ = NotYet; // of the last run
 };
 
-class vtkSMArrayColors : public vtkSMProxyInitializationHelper
+void Follow(vtkSMSourceProxy* filter, const Choice& choice)
 {
-public:
-  static vtkSMArrayColors* New();
-  vtkTypeMacro(vtkSMArrayColors, vtkSMProxyInitializationHelper);
-
-  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
-  {
-    Choice choice;
-    const std::string colors = xml->GetAttributeOrEmpty("colors");
-    choice.array = xml->GetAttributeOrEmpty("array");
-    xml->GetScalarAttribute("port", &choice.port);
-    xml->GetScalarAttribute("limit", &choice.limit);
-    choice.stepsApart = xml->GetAttributeOrEmpty("steps") == std::string("apart");
-    choice.colors = colors == "sequential"    ? Colors::Sequential
-                    : colors == "stripes"     ? Colors::Stripes
-                    : colors == "categorical" ? Colors::Categorical
-                                              : Colors::Diverging;
-    if (choice.colors == Colors::Stripes && gridfem::HasWindow())
+  const auto follower = std::make_shared<ArrayFollower>(filter, choice);
+  gridfem::Watch(filter, vtkCommand::PropertyModifiedEvent,
+    [follower](void* name)
     {
-      gridfem::OfferStripes();
-    }
-    const auto follower =
-      std::make_shared<ArrayFollower>(vtkSMSourceProxy::SafeDownCast(proxy), choice);
-    gridfem::Watch(proxy, vtkCommand::PropertyModifiedEvent,
-      [follower](void* name)
-      {
-        follower->NoteChange(static_cast<const char*>(name));
-        return false;
-      });
-    gridfem::Watch(proxy, vtkCommand::UpdateDataEvent,
-      [follower](void*)
-      {
-        follower->FitRanges();
-        return false;
-      });
-    gridfem::Watch(proxy->GetSessionProxyManager(), vtkCommand::RegisterEvent,
-      [follower](void* data)
-      {
-        const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
-        return made->Proxy && made->ProxyName && made->GroupName && // links have no group
-               made->GroupName == std::string("lookup_tables") &&
-               follower->Color(made->ProxyName, made->Proxy);
-      });
-  }
-};
-
-vtkStandardNewMacro(vtkSMArrayColors);
-
-vtkObjectBase* NewArrayColors(void*)
-{
-  return vtkSMArrayColors::New();
-}
-
-void AddToInterpreter(vtkClientServerInterpreter* interpreter)
-{
-  interpreter->AddNewInstanceFunction("vtkSMArrayColors", NewArrayColors);
+      follower->NoteChange(static_cast<const char*>(name));
+      return false;
+    });
+  gridfem::Watch(filter, vtkCommand::UpdateDataEvent,
+    [follower](void*)
+    {
+      follower->FitRanges();
+      return false;
+    });
+  gridfem::Watch(filter->GetSessionProxyManager(), vtkCommand::RegisterEvent,
+    [follower](void* data)
+    {
+      const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
+      return made->Proxy && made->ProxyName && made->GroupName && // links have no group
+             made->GroupName == std::string("lookup_tables") &&
+             follower->Color(made->ProxyName, made->Proxy);
+    });
 }
 
 } // namespace
@@ -335,5 +336,21 @@ bool gridfem::HasRangeOfHint(vtkSMProxy* map)
 
 void gridfem::RegisterArrayColors()
 {
-  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(AddToInterpreter);
+  WhenRegistered("sources",
+    [](vtkSMProxy* proxy)
+    {
+      auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
+      for (vtkPVXMLElement* hint : HintsOf(proxy, "ArrayColors"))
+      {
+        const Choice choice(hint);
+        if (choice.colors == Colors::Stripes && HasWindow())
+        {
+          OfferStripes();
+        }
+        if (filter)
+        {
+          Follow(filter, choice);
+        }
+      }
+    });
 }

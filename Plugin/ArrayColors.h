@@ -1,12 +1,12 @@
 // Chooses suitable colors for an array of a filter. The XML of the filter needs this hint:
 //
 //   <Hints>
-//     <InitializationHelper class="vtkSMArrayColors" array="Mode" colors="diverging" steps="apart"
-//     />
+//     <ArrayColors array="Mode" colors="diverging" steps="apart" />
 //   </Hints>
 //
-// `array` is a point or cell array of port 0, or of the port in the attribute `port`. A name that
-// ends in * stands for all arrays that begin with it. `colors` is one of
+// `array` is a point or cell array of port 0, without the prefix of results, or of the port in the
+// attribute `port`. A name that ends in * stands for all arrays that begin with it. `colors` is one
+// of
 //   diverging    ParaView's default colors, with 0 always in the middle
 //   sequential   from dark to light; diverging if some values are below 0
 //   stripes      the same in stripes, for distances
@@ -19,6 +19,8 @@
 // range of the filter's data, symmetric about 0 if 0 is in the middle. It only grows while another
 // visible representation uses the map, and from one time step to the next; with steps="apart",
 // every time step has its own range. A range that comes from elsewhere is the user's and stays.
+//
+// It makes no difference whether the window, a script, a state or undo brings the filter.
 #ifndef GridFEM_ArrayColors_h
 #define GridFEM_ArrayColors_h
 
@@ -30,7 +32,7 @@ namespace gridfem
 /// Whether the range of a color map has been given by a filter's hint.
 bool HasRangeOfHint(vtkSMProxy* map);
 
-/// Registers the class under the name that hints use. The plugin calls it when it is loaded.
+/// Begins to follow filters with the hint. The plugin calls it when it is loaded.
 void RegisterArrayColors();
 
 } // namespace gridfem

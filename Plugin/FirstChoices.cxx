@@ -1,12 +1,10 @@
 #include "FirstChoices.h"
 
+#include "Hints.h"
 #include "Watch.h"
 
-#include "vtkClientServerInterpreter.h"
-#include "vtkClientServerInterpreterInitializer.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkObjectFactory.h"
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
@@ -14,9 +12,9 @@
 #include "vtkSMArrayListDomain.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
-#include "vtkSMProxyInitializationHelper.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMStringVectorProperty.h"
+#include "vtkSMTrace.h"
 
 #include <string>
 #include <vector>
@@ -118,101 +116,73 @@ void SetNumber(vtkSMProperty* property, vtkPVXMLElement* hint)
   }
 }
 
-class vtkSMChoosesArray : public vtkSMProxyInitializationHelper
+/// Chooses the array of a property.
+void ChooseArray(vtkSMProxy* filter, vtkPVXMLElement* hint)
 {
-public:
-  static vtkSMChoosesArray* New();
-  vtkTypeMacro(vtkSMChoosesArray, vtkSMProxyInitializationHelper);
-
-  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  auto* property = vtkSMStringVectorProperty::SafeDownCast(
+    filter->GetProperty(hint->GetAttributeOrEmpty("property")));
+  auto* list = property ? property->FindDomain<vtkSMArrayListDomain>() : nullptr;
+  int port = 0;
+  vtkSMSourceProxy* input = InputOf(filter, port);
+  if (!list || !input || !property->IsValueDefault())
   {
-    auto* property = vtkSMStringVectorProperty::SafeDownCast(
-      proxy->GetProperty(xml->GetAttributeOrEmpty("property")));
-    auto* list = property ? property->FindDomain<vtkSMArrayListDomain>() : nullptr;
-    int port = 0;
-    vtkSMSourceProxy* input = InputOf(proxy, port);
-    if (!gridfem::HasWindow() || !list || !input || !property->IsValueDefault())
-    {
-      return;
-    }
-    const Array array = ChooseFrom(
-      list, property->GetDefaultValue(4), input->GetDataInformation(port), ColoringArray(proxy));
-    vtkSMPropertyHelper choice(property);
-    if (!array.name.empty())
-    {
-      choice.SetInputArrayToProcess(array.association, array.name.c_str());
-      return;
-    }
-    SetNumber(proxy->GetProperty(xml->GetAttributeOrEmpty("otherwise")), xml);
+    return;
   }
-};
-
-vtkStandardNewMacro(vtkSMChoosesArray);
-
-class vtkSMChoosesNumber : public vtkSMProxyInitializationHelper
-{
-public:
-  static vtkSMChoosesNumber* New();
-  vtkTypeMacro(vtkSMChoosesNumber, vtkSMProxyInitializationHelper);
-
-  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  const Array array = ChooseFrom(
+    list, property->GetDefaultValue(4), input->GetDataInformation(port), ColoringArray(filter));
+  if (!array.name.empty())
   {
-    if (gridfem::HasWindow())
-    {
-      SetNumber(proxy->GetProperty(xml->GetAttributeOrEmpty("property")), xml);
-    }
+    vtkSMPropertyHelper(property).SetInputArrayToProcess(array.association, array.name.c_str());
+    return;
   }
-};
-
-vtkStandardNewMacro(vtkSMChoosesNumber);
-
-class vtkSMChoosesPoints : public vtkSMProxyInitializationHelper
-{
-public:
-  static vtkSMChoosesPoints* New();
-  vtkTypeMacro(vtkSMChoosesPoints, vtkSMProxyInitializationHelper);
-
-  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
-  {
-    constexpr vtkTypeInt64 Steps = 3; // between the points
-    vtkSMProperty* property = proxy->GetProperty(xml->GetAttributeOrEmpty("property"));
-    int port = 0;
-    vtkSMSourceProxy* input = InputOf(proxy, port);
-    vtkPVDataInformation* data = input ? input->GetDataInformation(port) : nullptr;
-    if (!gridfem::HasWindow() || !property || !property->IsValueDefault() || !data ||
-        data->IsCompositeDataSet() || !data->DataSetTypeIsA("vtkPolyData") ||
-        data->GetNumberOfPoints() <= Steps)
-    {
-      return;
-    }
-    std::vector<double> table;
-    for (vtkTypeInt64 k = 0; k <= Steps; ++k)
-    {
-      table.push_back(static_cast<double>(k * (data->GetNumberOfPoints() - 1) / Steps));
-      table.push_back(static_cast<double>(k));
-    }
-    vtkSMPropertyHelper(property).Set(table.data(), static_cast<unsigned int>(table.size()));
-  }
-};
-
-vtkStandardNewMacro(vtkSMChoosesPoints);
-
-template<class Choice>
-vtkObjectBase* NewChoice(void*)
-{
-  return Choice::New();
+  SetNumber(filter->GetProperty(hint->GetAttributeOrEmpty("otherwise")), hint);
 }
 
-void AddChoices(vtkClientServerInterpreter* interpreter)
+/// Fills a table of points and values with an example.
+void ChoosePoints(vtkSMProxy* filter, vtkPVXMLElement* hint)
 {
-  interpreter->AddNewInstanceFunction("vtkSMChoosesArray", NewChoice<vtkSMChoosesArray>);
-  interpreter->AddNewInstanceFunction("vtkSMChoosesNumber", NewChoice<vtkSMChoosesNumber>);
-  interpreter->AddNewInstanceFunction("vtkSMChoosesPoints", NewChoice<vtkSMChoosesPoints>);
+  constexpr vtkTypeInt64 Steps = 3; // between the points
+  vtkSMProperty* property = filter->GetProperty(hint->GetAttributeOrEmpty("property"));
+  int port = 0;
+  vtkSMSourceProxy* input = InputOf(filter, port);
+  vtkPVDataInformation* data = input ? input->GetDataInformation(port) : nullptr;
+  if (!property || !property->IsValueDefault() || !data || data->IsCompositeDataSet() ||
+      !data->DataSetTypeIsA("vtkPolyData") || data->GetNumberOfPoints() <= Steps)
+  {
+    return;
+  }
+  std::vector<double> table;
+  for (vtkTypeInt64 k = 0; k <= Steps; ++k)
+  {
+    table.push_back(static_cast<double>(k * (data->GetNumberOfPoints() - 1) / Steps));
+    table.push_back(static_cast<double>(k));
+  }
+  vtkSMPropertyHelper(property).Set(table.data(), static_cast<unsigned int>(table.size()));
 }
 
 } // namespace
 
-void gridfem::RegisterFirstChoices()
+void gridfem::MakeFirstChoices(vtkSMProxy* filter)
 {
-  vtkClientServerInterpreterInitializer::GetInitializer()->RegisterCallback(AddChoices);
+  const auto arrays = HintsOf(filter, "ChoosesArray");
+  const auto numbers = HintsOf(filter, "ChoosesNumber");
+  const auto points = HintsOf(filter, "ChoosesPoints");
+  if (arrays.empty() && numbers.empty() && points.empty())
+  {
+    return;
+  }
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+  for (vtkPVXMLElement* hint : arrays)
+  {
+    ChooseArray(filter, hint);
+  }
+  for (vtkPVXMLElement* hint : numbers)
+  {
+    SetNumber(filter->GetProperty(hint->GetAttributeOrEmpty("property")), hint);
+  }
+  for (vtkPVXMLElement* hint : points)
+  {
+    ChoosePoints(filter, hint);
+  }
+  filter->UpdateVTKObjects();
 }

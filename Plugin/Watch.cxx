@@ -114,10 +114,7 @@ void WhenFirstShown(
   Watch(proxy, vtkCommand::UpdateDataEvent,
     [filter, port, act = std::move(act)](void*)
     {
-      if (HasWindow())
-      {
-        WhenShown(filter, port, [filter, act](vtkSMProxy* shown) { act(shown, filter); });
-      }
+      WhenShown(filter, port, [filter, act](vtkSMProxy* shown) { act(shown, filter); });
       return true;
     });
 }

@@ -31,7 +31,7 @@ bool ShowsPort(vtkSMProxy* representation, vtkSMSourceProxy* filter, int port);
 void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
   const std::function<void(vtkSMProxy*)>& act);
 
-/// Does the same after the first data of the filter, if ParaView has a window.
+/// Does the same after the first data of the filter.
 void WhenFirstShown(vtkSMProxy* proxy, int port,
   std::function<void(vtkSMProxy* shown, vtkSMSourceProxy* filter)> act);
 

@@ -1,13 +1,18 @@
 #include "Window.h"
 
 #include "Examples.h"
+#include "FirstApply.h"
+#include "FirstChoices.h"
 
 #include "vtkPVXMLElement.h"
 #include "vtkSMProxy.h"
 #include "vtkSMProxyManager.h"
 #include "vtkSMSessionProxyManager.h"
+#include "vtkSMSourceProxy.h"
 
+#include <pqObjectBuilder.h>
 #include <pqPVApplicationCore.h>
+#include <pqPipelineSource.h>
 #include <pqProxyGroupMenuManager.h>
 
 #include <QAction>
@@ -89,6 +94,22 @@ void SearchJobs(pqProxyGroupMenuManager* filters)
     [filters, list] { ListJobs(filters, list); });
 }
 
+/// Meets the filters that the user makes. ParaView does not report filters of scripts and states
+/// here.
+void MeetFilters(pqPVApplicationCore* core)
+{
+  QObject::connect(core->getObjectBuilder(), &pqObjectBuilder::filterCreated, core,
+    [](pqPipelineSource* made)
+    {
+      auto* filter = made ? vtkSMSourceProxy::SafeDownCast(made->getProxy()) : nullptr;
+      if (filter)
+      {
+        gridfem::MakeFirstChoices(filter);
+        gridfem::AwaitFirstApply(filter);
+      }
+    });
+}
+
 /// Adds to the window that has the menu of filters. Returns false if there is none yet.
 bool AddToWindow()
 {
@@ -122,6 +143,10 @@ void gridfem::RegisterWindow()
     []
     {
       pqPVApplicationCore* core = pqPVApplicationCore::instance();
+      if (core)
+      {
+        MeetFilters(core);
+      }
       if (core && !AddToWindow())
       {
         QObject::connect(

@@ -1,5 +1,6 @@
-// What the plugin adds to the menus and to the search of ParaView's window. Without a window there
-// is nothing to add. The XML of a filter has the hint:
+// What the plugin adds to ParaView's window: entries of menus and of the search, and choices for
+// filters that the user makes. Without a window there is nothing to add. The XML of a filter has
+// the hint:
 //
 //   <Hints>
 //     <ShowInMenu category="Surface FEM" section="Solve" jobs="smooth, denoise" />

@@ -57,7 +57,7 @@ def change_of(name):
 def colors_of(name):
     """Returns the array that colors a new filter, from the hints of its panel, and how. Empty if there
     is no hint."""
-    hint = re.search(r'class="vtkSM(?:ArrayColors|ColorsLater)" array="(\w+)\*?"(?! port)(?: colors="(\w+)")?', _PANELS[name])
+    hint = re.search(r'<(?:ArrayColors|ColorsLater) array="(\w+)\*?"(?! port)(?: colors="(\w+)")?', _PANELS[name])
     return hint.groups("") if hint else ("", "")
 
 

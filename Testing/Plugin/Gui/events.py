@@ -4,6 +4,8 @@ from paraview import simple
 PANEL = "pqClientMainWindow/propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + "/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel"
 MENUS = "pqClientMainWindow/menubar"
+TIME = "pqClientMainWindow/VCRToolbar/1QToolButton"
+FIRST, NEXT = 0, 4  # buttons of the toolbar for the time
 PLACE = (2.0, -1.5, 0.3)  # of the handle in the view
 
 
@@ -27,6 +29,17 @@ class Script:
     def save(self, name):
         self.event(f"{MENUS}/menu_File", "activate", "actionFileSaveServerState")
         self.event("pqClientMainWindow/FileSaveServerStateDialog", "filesSelected", f"{self.folder}/{name}.pvsm")
+
+    def load(self, name):
+        """Loads a state or a script of the folder."""
+        self.event(f"{MENUS}/menu_File", "activate", "actionFileLoadServerState")
+        self.event("pqClientMainWindow/FileLoadServerStateDialog", "filesSelected", f"{self.folder}/{name}")
+
+    def select(self, *rows):
+        """Selects in the pipeline browser: the number of a source, of a filter on it, and so on."""
+        place = "".join(f"/{row}:0" for row in (0, *rows))
+        for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+            self.event("pqClientMainWindow/pipelineBrowserDock/pipelineBrowser", command, f"{buttons},0,50,10,{place}")
 
     def edit(self, what):
         self.event(f"{MENUS}/menu_Edit", "activate", f"actionEdit{what}")

@@ -11,10 +11,8 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import plugin
-from events import PLACE, PROPERTIES, Script
+from events import FIRST, NEXT, PLACE, PROPERTIES, TIME, Script
 
-TIME = "pqClientMainWindow/VCRToolbar/1QToolButton"
-FIRST, NEXT = 0, 4  # buttons of the toolbar for the time
 DEPTH = "4"
 CHOSEN_DEPTH = ("ClipToOctree", "ConnectivityAwareBasis")  # the window chooses it
 PAIRS = (("one", ("ScreenedPoisson", "HeatDiffusion", "SurfaceGradient")),
