@@ -390,6 +390,9 @@ TEST(Selection, ThatCannotBeEvaluatedIsRefused)
   { return SelectionOf(NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::FRUSTUM, list)); };
   ExpectRefused(DetailOf(Sphere(), frustum(IdArray({ 1 }))), "eight corners");
   ExpectRefused(DetailOf(Sphere(), frustum(nullptr)), "eight corners");
+  const auto node = NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::INDICES, IdArray({ 1 }));
+  node->SetSelectionData(nullptr);
+  ExpectRefused(DetailOf(Sphere(), SelectionOf(node)), "without data");
 }
 
 /// VTK crashes on the first two, and takes other points or none for the rest.

@@ -41,6 +41,10 @@ int KindOf(vtkSelectionNode* node)
 /// Requires a kind of content that VTK has an operation for.
 void RequireContent(vtkSelectionNode* node)
 {
+  if (!node->GetSelectionData()) // VTK 9.3 looks for colors in them
+  {
+    throw InvalidInput("The Selection has a node without data.");
+  }
   const int content = node->GetContentType();
   const bool isKnown = content >= 0 && content < vtkSelectionNode::NUM_CONTENT_TYPES;
   const bool isQuery = content == vtkSelectionNode::QUERY;
