@@ -319,12 +319,19 @@ class TestPipeline(unittest.TestCase):
                 chart = simple.Show(simple.OutputPort(spectrum, 1), view)
                 view.SMProxy.Update()  # all but the picture
                 self.assertEqual(list(chart.SeriesVisibility), ["Eigenvalue"])
-                self.assertIn("Eigenvalue (left)", list(chart.SeriesLabel))
-                self.assertNotIn("Eigenvalue (right)", list(chart.SeriesLabel))
-                chart.CompositeDataSetIndex = [1, 2]  # the boxes of the panel
+                labels = list(chart.SeriesLabel)
+                if "CompositeDataSetIndex" in chart.ListProperties():  # the boxes of the panel
+                    self.assertIn("Eigenvalue (left)", labels)
+                    self.assertNotIn("Eigenvalue (right)", labels)
+                    chart.CompositeDataSetIndex = [1, 2]
+                    second = "Eigenvalue (right)"
+                else:  # from ParaView 6 on, the columns of all blocks share a name
+                    self.assertIn("Eigenvalue", labels)
+                    chart.BlockSelectors = ["/Root/left", "/Root/right"]
+                    second = "Eigenvalue"
                 view.SMProxy.Update()
                 self.assertEqual(list(chart.SeriesVisibility), ["Eigenvalue"])
-                self.assertIn("Eigenvalue (right)", list(chart.SeriesColor))
+                self.assertIn(second, list(chart.SeriesColor))
                 self.assertEqual(errors, [])
 
 

@@ -83,6 +83,14 @@ def results(names):
     return found
 
 
+def number(text):
+    """Returns the number that a text tells, or the text. Versions of ParaView write 0.000001 or 1e-06."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def settings(path):
     """Returns the numbers and words of every filter of the plugin in a state file, by name and
     property."""
@@ -94,7 +102,7 @@ def settings(path):
         if proxy.get("type") in plugin.PROXIES and proxy.get("id") in names:
             for key in proxy.findall("Property"):
                 found[names[proxy.get("id")], key.get("name")] = [
-                    element.get("value") for element in key.findall("Element")]
+                    number(element.get("value")) for element in key.findall("Element")]
     return found
 
 
