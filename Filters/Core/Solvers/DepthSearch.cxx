@@ -18,7 +18,8 @@ constexpr int LongestStep = 2;
 
 } // namespace
 
-void DepthSearch::Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted)
+void DepthSearch::Judge(
+  const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted, FunctionKind kind)
 {
   if (isFound_)
   {
@@ -26,11 +27,12 @@ void DepthSearch::Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors
   }
   const double error = errors.discretization;
   const bool isAccurate = error <= wanted;
+  isReached_ = isAccurate && (errors.isTrusted || wasAccurate_);
   int next = depth_;
-  if (!isAccurate || !(errors.isTrusted || wasAccurate_))
+  if (!isReached_)
   {
     next = error > wanted ? DepthForAccuracy({ error }, depth_, wanted) : depth_ + 1;
-    next = FittingDepth(mesh, std::min({ next, depth_ + LongestStep, MaximumDepth }), depth_);
+    next = FittingDepth(mesh, std::min({ next, depth_ + LongestStep, MaximumDepth }), depth_, kind);
   }
   wasAccurate_ = isAccurate;
   isFound_ = next == depth_;

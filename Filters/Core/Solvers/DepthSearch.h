@@ -20,15 +20,21 @@ public:
   int Depth() const { return depth_; }
   bool IsFound() const { return isFound_; }
 
+  /// Whether the wanted error is reached at the depth found.
+  bool IsReached() const { return isReached_; }
+
   /// Ends the search, or goes on to another depth. Has no effect once the depth is found.
   /// @param errors  of the solution at Depth(). An error that is not trusted has to be small enough
   ///   at two consecutive depths
   /// @param wanted  relative error, above 0
-  void Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted);
+  /// @param kind    of the functions, whose memory limits the depth
+  void Judge(
+    const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted, FunctionKind kind);
 
 private:
   int depth_ = 5; // a start at almost no cost
   bool isFound_ = false;
+  bool isReached_ = false;
   bool wasAccurate_ = false;
 };
 

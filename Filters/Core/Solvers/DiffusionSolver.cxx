@@ -174,26 +174,26 @@ void DiffusionSolver::UpdateLoads(
       constants_ = TakeConstantsOut(surface, values);
       start_ = LoadOfPanels(surface, values, job.Part(0.0, 0.5));
       result_.warning.clear();
-      const HeldRows before = std::move(held_.rows);
-      held_ = {};
+      HeldValues held; // replaces the held values once nothing can fail any more
       if (input.constraints || options.boundaryValues)
       {
-        held_ = HoldConstraints(surface, input.values, input.constraints);
-        held_.values.rowwise() -= constants_;
+        held = HoldConstraints(surface, input.values, input.constraints);
+        held.values.rowwise() -= constants_;
       }
       if (options.boundaryValues)
       {
         const BoundaryTerms terms = surface.OnBoundary(nullptr, &values.values);
         if (terms.isThere)
         {
-          surface.Together([&] { held_ = Join(held_, terms.held); });
+          surface.Together([&] { held = Join(held, terms.held); });
         }
         else
         {
           result_.warning = "The surface has no boundary, so Boundary Values has no effect.";
         }
       }
-      heldPlaces_ += AreSamePlaces(before, held_.rows) ? 0 : 1;
+      heldPlaces_ += AreSamePlaces(held_.rows, held.rows) ? 0 : 1;
+      held_ = std::move(held);
       sources_ = {};
       if (input.source)
       {

@@ -264,7 +264,8 @@ void PoissonSolver::SolveAtWantedError(
     surface.PrepareAtDepth(solved, part.Part(0.0, 0.5));
     part.Check(0.5);
     this->SolvePrepared(surface, input, options, part.Part(0.5, 1.0));
-    search_.Judge(surface.Mesh(), result_.accuracy, options.wantedError);
+    search_.Judge(
+      surface.Mesh(), result_.accuracy, options.wantedError, surface.UsedOptions().choice.kind);
   }
 }
 

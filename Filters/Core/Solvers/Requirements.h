@@ -33,11 +33,10 @@ void RequireNumber(const std::string& property, double value);
 void RequireFirstDegree(FunctionKind kind, const char* subject);
 
 /// Whether everything that a solver makes at this depth should fit into memory.
-bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
+bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind);
 
 /// The finest depth from `most` down that fits into memory, or `least`.
-int FittingDepth(
-  const TriangleMesh& mesh, int most, int least, FunctionKind kind = FunctionKind::Grid);
+int FittingDepth(const TriangleMesh& mesh, int most, int least, FunctionKind kind);
 
 /// A value in place of a depth. It stands for the suggested depth, or for a smaller one that fits
 /// into memory.
@@ -73,7 +72,7 @@ MemoryNeed NeedOfModes(Id functions, Id modes, int threads);
 void RequireMemory(const MemoryNeed& need, double available, const std::string& where = {});
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
-void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
+void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind);
 
 /// The same for hat functions above an existing grid with this number of functions.
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions);

@@ -69,7 +69,7 @@ std::unique_ptr<FiniteElementSpace> SpaceOfDetails(
   functions.weldCoincidentPoints = false; // points of two scans stay two
   SpaceChoice choice = surface.UsedOptions().choice;
   choice.kind = FunctionKind::Grid; // the change is smooth
-  RequireMemory(pieces, functions.depth);
+  RequireMemory(pieces, functions.depth, FunctionKind::Grid);
   return BuildSpace(pieces, functions, choice, progress);
 }
 

@@ -4,9 +4,17 @@
 #include "Grid/Grid.h"
 #include "Meshes.h"
 
+#include "Solvers/MemoryEstimate.h"
+
 #include <gtest/gtest.h>
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <cmath>
+#include <fstream>
 #include <vector>
 
 using namespace gridfem;
@@ -33,7 +41,7 @@ std::vector<int> DepthsTried(double wanted, ErrorsAt&& errorsAt)
   while (tried.empty() || tried.back() != search.Depth())
   {
     tried.push_back(search.Depth());
-    search.Judge(mesh, errorsAt(search.Depth()), wanted);
+    search.Judge(mesh, errorsAt(search.Depth()), wanted, FunctionKind::Grid);
   }
   EXPECT_TRUE(search.IsFound());
   return tried;
@@ -75,6 +83,63 @@ TEST(DepthSearch, EndsWhereTheErrorDoesNotFall)
     EXPECT_GT(tried[i], tried[i - 1]);
   }
 }
+
+/// An error that no level confirms counts only if the depth before had a small error, too.
+TEST(DepthSearch, ReachesAnErrorThatIsTrustedOrSmallTwice)
+{
+  const TriangleMesh mesh = GeodesicSphere(4);
+  const auto isReached = [&](double first, double second, bool isTrusted)
+  {
+    DepthSearch search;
+    search.Judge(mesh, Errors(first, isTrusted), 0.01, FunctionKind::Grid);
+    if (!search.IsFound())
+    {
+      EXPECT_FALSE(search.IsReached());
+      search.Judge(mesh, Errors(second, isTrusted), 0.01, FunctionKind::Grid);
+    }
+    return search.IsReached();
+  };
+  EXPECT_TRUE(isReached(0.005, 0.005, true));
+  EXPECT_TRUE(isReached(0.02, 0.005, true));
+  EXPECT_TRUE(isReached(0.005, 0.004, false));
+  EXPECT_FALSE(isReached(0.02, 0.005, false));
+  EXPECT_FALSE(isReached(std::nan(""), 0.005, false));
+}
+
+#ifdef __linux__
+/// Returns the depth after this depth if a process may take `room` bytes.
+int DepthWithin(double room, const TriangleMesh& mesh, FunctionKind kind)
+{
+  rlimit before{};
+  double pages = 0.0;
+  EXPECT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_TRUE(std::ifstream("/proc/self/statm") >> pages);
+  rlimit limit = before;
+  limit.rlim_cur = static_cast<rlim_t>(pages * double(getpagesize()) + room);
+  setrlimit(RLIMIT_AS, &limit);
+  DepthSearch search;
+  search.Judge(mesh, Errors(std::pow(0.25, 5), true), std::pow(0.25, 7), kind);
+  setrlimit(RLIMIT_AS, &before);
+  return search.Depth();
+}
+
+TEST(DepthSearch, GoesOnlyWhereFunctionsOfItsKindFitIntoMemory)
+{
+  const TriangleMesh mesh = GeodesicSphere(4);
+  const auto bytesAt = [&](int depth, FunctionKind kind)
+  {
+    const MemoryEstimate grid = EstimateMemory(mesh, depth);
+    return grid.bytes +
+           (kind == FunctionKind::SmoothGrid ? EstimateSmoothMemory(grid.functions) : 0.0);
+  };
+  const double room = std::sqrt(
+    bytesAt(7, FunctionKind::Grid) * bytesAt(7, FunctionKind::SmoothGrid)); // between the two
+  ASSERT_GT(room, 1.2 * bytesAt(7, FunctionKind::Grid));
+  ASSERT_LT(room, bytesAt(7, FunctionKind::SmoothGrid) / 1.2);
+  EXPECT_EQ(DepthWithin(room, mesh, FunctionKind::Grid), 7);
+  EXPECT_LT(DepthWithin(room, mesh, FunctionKind::SmoothGrid), 7);
+}
+#endif
 
 TEST(DepthSearch, FindsModesBetweenItsBounds)
 {

@@ -3,7 +3,9 @@
 #include "Largest.h"
 #include "Meshes.h"
 
+#include "Base/Errors.h"
 #include "Solvers/DiffusionSolver.h"
+#include "Solvers/LocalSurface.h"
 #include "Solvers/PoissonSolver.h"
 
 #include <gtest/gtest.h>
@@ -124,6 +126,51 @@ TEST(HeldValues, OfABoundaryGiveAnErrorThatFallsWithDepth)
     EXPECT_LT(coarse, 0.025);
     EXPECT_LT(fine, Larger(Chords[k], coarse / 4.0));
     EXPECT_LT(ErrorOnDisc(mesh, 7), Chords[k]);
+  }
+}
+
+/// A mask of no point is refused. Without the mask, the next update works as in a new solver.
+TEST(HeldValues, AreForgottenAfterAMaskThatHoldsNone)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(Disc(8));
+  const MultiVector values = WavesOn(*mesh);
+  DiffusionSolver::Input input;
+  input.values = GivenField::Of("f", { FieldAssociation::Points, values });
+  SurfaceOptions asked = DiffusionSolver::SurfaceDefaults();
+  asked.space.depth = 4;
+  DiffusionSolver::Options options;
+  options.diffusionTime = 0.1;
+  options.equation.solve.tolerance = 1e-8; // the same with and without a mask
+  Stages stages;
+  LocalSurface surface(stages, mesh, asked);
+  DiffusionSolver solver;
+  const auto hold = [&](std::vector<Id> points, int version)
+  {
+    input.constraints.property = "the mask";
+    input.constraints.version = StageKey().Add(version);
+    input.constraints.find = [points, &values] {
+      return PointValues{ points, values(points, Eigen::all) };
+    };
+  };
+  const auto expectAsNew = [&]
+  {
+    const DiffusionSolver::Result fresh = DiffusionSolver::Solve(mesh, input, options, asked);
+    EXPECT_EQ(solver.Update(surface, input, options, {}).steps.front().atPoints,
+      fresh.steps.front().atPoints);
+  };
+  for (const bool onBoundary : { false, true })
+  {
+    options.boundaryValues = onBoundary;
+    hold({ 5, 20 }, 1);
+    expectAsNew();
+    hold({}, 2);
+    EXPECT_THROW(solver.Update(surface, input, options, {}), InvalidInput);
+    input.constraints = {};
+    expectAsNew();
+    hold({}, 3);
+    EXPECT_THROW(solver.Update(surface, input, options, {}), InvalidInput);
+    hold({ 5, 20 }, 4);
+    expectAsNew();
   }
 }
 

@@ -59,7 +59,7 @@ void WholeClip::UpdateClip(const Progress& progress)
       surface_.ReadAnew(options.weldCoincidentPoints, progress.Part(0.0, 0.1));
       const TriangleMesh& mesh = surface_.Mesh();
       options.depth = ChooseDepth(mesh, options.depth, FunctionKind::Grid, AsManyAsWanted);
-      RequireMemory(mesh, options.depth);
+      RequireMemory(mesh, options.depth, FunctionKind::Grid);
       clipped_ = gridfem::Clip(mesh, options, progress.Part(0.1, 1.0));
       this->MakeFrame();
     });
@@ -115,7 +115,7 @@ void WholeClip::ReadFunctions(const Progress& progress)
   surface_.ReadAnew(false, progress.Part(0.0, 0.1));
   ClippedMesh clipped =
     ReadClippedMesh(input, this->Source(), options.weldCoincidentPoints, progress.Part(0.1, 0.5));
-  RequireMemory(surface_.Mesh(), clipped.grid.depth);
+  RequireMemory(surface_.Mesh(), clipped.grid.depth, FunctionKind::Grid);
   const auto support =
     options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain;
   surface_.TakeFunctions(
