@@ -9,25 +9,23 @@
 //     <ColorsLater array="StitchedColors" direct="fractions" />
 //   </Hints>
 //
-//   OpensBeside    the first Apply opens a view for this port beside the view of port 0. The view
-//   of
-//                  port 0 stays active, so it also shows the next filter. Its camera is fitted. A
-//                  view that shows only this port is closed with the filter
-//   ShowsLastStep  the first Apply goes to the last of the filter's time steps, unless another
-//   source
-//                  has time steps that would change with it
-//   DrawsTubes     the first Apply shows the lines of this port as tubes, and port 0 half
-//   transparent,
-//                  so that lines on its far side are seen as well
-//   FitsCameras    the first Apply fits the camera to port 0 and to this port, which lies beside
-//   it.
-//                  The camera is fitted again when the filter is deleted
-//   ColorsLater    the array colors port 0 as soon as port 0 has it, or has lost the array that
-//   colored
-//                  it. ParaView looks only once, when it first shows a filter, and the user may
-//                  choose arrays later. The user's own coloring stays. With direct="bytes", three
-//                  or four bytes are shown directly as colors, without a bar. With
-//                  direct="fractions", numbers from 0 to 1 are shown like this
+//   OpensBeside: the first Apply opens a view for this port beside the view of port 0. The view of
+//   port 0 stays active, so it also shows the next filter. Its camera is fitted. A view that shows
+//   only this port is closed with the filter.
+//
+//   ShowsLastStep: the first Apply goes to the last of the filter's time steps, unless another
+//   source has time steps that would change with it.
+//
+//   DrawsTubes: the first Apply shows the lines of this port as tubes, and port 0 half transparent,
+//   so that lines on its far side are seen as well.
+//
+//   FitsCameras: the first Apply fits the camera to port 0 and to this port, which lies beside it.
+//   The camera is fitted again when the filter is deleted.
+//
+//   ColorsLater: the array colors port 0 as soon as port 0 has it, or has lost the array that
+//   colored it. ParaView looks only once, when it first shows a filter, and the user may choose
+//   arrays later. The user's own coloring stays. With direct="bytes", three or four bytes are shown
+//   directly as colors, without a bar. With direct="fractions", so are numbers from 0 to 1.
 //
 // The XML of a chart has the hint:
 //

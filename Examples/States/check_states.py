@@ -20,6 +20,7 @@ STATES = {
     "detail": ("smoothed, everywhere", "NormalDisplacement", 0),
     "diffusion": ("Diffused", "Diffused", 20),
     "distance": ("Distance", "Distance", 0),
+    "dynamics": ("Spots", "U", 30),
     "farthest": ("Points", "Distance", 0),
     "gradient": ("Parts", "StreamFunction", 0),
     "interpolation": ("Biharmonic", "Interpolated", 0),

@@ -39,8 +39,8 @@ except ImportError:
     from ._with_vtk import solve as _solve_numbered, surface, triangulate as _triangulate
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "distance_matrix", "divergence", "farthest_points", "flow", "gaussian_field", "gradient",
-           "interpolate", "krige", "parameterize", "path", "poisson", "signatures",
+           "distance_matrix", "divergence", "dynamics", "farthest_points", "flow", "gaussian_field",
+           "gradient", "interpolate", "krige", "parameterize", "path", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -287,6 +287,20 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
     amount = {"Amount": given[0], **{key: value for key, value in amounts.items() if value is not None}}
     return _solve("HeatDiffusion", points, cells, {"values": values, "held": held, "source": source},
                   {**amount, "NumberOfSteps": 8, **properties}, on=on)["Diffused"]
+
+
+def dynamics(points, cells, model, length=0.1, steps=20, start=None, velocity=None, **properties):
+    """Computes patterns, waves or transport on the surface, and returns the last of `steps` time steps.
+
+    model: "TuringSpots", "GrayScott", "FitzHughNagumo", "AllenCahn", "Wave" or "Transport". length: the
+    PatternLength in ParameterUnits. start: one or two columns at time 0. None takes noise, or a bump for
+    Wave and Transport. velocity: three columns, for Transport. TimeStep is the time between two steps.
+    Returns u and v (N, 2), or u (N,) for AllenCahn and Transport. The result can be the start of the next
+    call.
+    """
+    return _solve("SurfaceDynamics", points, cells, {"start": start, "velocity": velocity},
+                  {"Model": model, "PatternLength": length, "NumberOfSteps": steps,
+                   **properties})["State"]
 
 
 def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0.0, **properties):

@@ -114,6 +114,7 @@ CHOICES = {
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "MapType": ("Conformal", "Isometric", "Circle"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),
+    "Model": ("TuringSpots", "GrayScott", "FitzHughNagumo", "AllenCahn", "Wave", "Transport"),
     "ParameterUnits": ("World", "UnitArea", "UnitCube"),
     "Rescale": ("Automatic", "None", "ConstantArea", "ConstantVolume"),
     "Smoothness": ("Harmonic", "Biharmonic"),

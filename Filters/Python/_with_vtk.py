@@ -22,7 +22,8 @@ _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
 _INDICES = {
     "ScreenedPoisson": {"values": 0, "gradients": 1, "gradient_scale": 2, "weights": 3, "held": 4, "flux": 6},
     "HeatDiffusion": {"values": 0, "source": 1, "held": 2},
-    "SurfaceDetail": {"values": 0, "scales": 1}}
+    "SurfaceDetail": {"values": 0, "scales": 1},
+    "SurfaceDynamics": {"start": 0, "velocity": 1}}
 _OTHER_INDICES = {"values": 0, "colors": 0, "labels": 1}
 
 # Properties of pipelines, which the functions do not have: of all filters, and of single ones.
@@ -82,6 +83,9 @@ class _Results:
         if name == "Modes":
             count = self.output.GetFieldData().GetArray("Eigenvalues").GetNumberOfTuples()
             return numpy.column_stack([self[f"Mode{mode:03}"] for mode in range(count)])
+        if name == "State":
+            points = self.output.GetPointData()
+            return numpy.column_stack([self["U"], self["V"]]) if points.HasArray("V") else self["U"]
         if name == "Samples":
             points = self.output.GetPointData()
             names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]

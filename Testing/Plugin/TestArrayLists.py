@@ -61,7 +61,9 @@ EXPECTED = {  # those that are not named may offer any of these
     ("HeatDiffusion", "ConstraintArray"): {"p1"},
     ("GeodesicDistance", "SourceArray"): {"p1"},
     ("GeodesicDistance", "LabelArray"): {"p1", "c1"},
-    ("SpectralSignatures", "ValueArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"}}
+    ("SpectralSignatures", "ValueArray"): {"Normals", "p1", "p3", "p4", "p6", "p9"},
+    ("SurfaceDynamics", "StartArray"): {"p1", "c1"},
+    ("SurfaceDynamics", "VelocityArray"): {"Normals", "p3", "c3"}}
 
 
 class TestArrayLists(unittest.TestCase):

@@ -21,7 +21,8 @@ MOST_SHOWN = 5
 # The class does not clamp these properties. It refuses values below the range, with a message.
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
                  "TransitionWidth": 0, "FWHM": 0, "Sigma": 0, "Range": 0,
-                 "StandardDeviation": 0}
+                 "StandardDeviation": 0, "PatternLength": 0, "TimeStep": 0, "Feed": 0, "Kill": 0, "Damping": 0,
+                 "Diffusivity": 0}
 
 # Words that people type into the search of ParaView's window, and a filter that they find.
 JOBS = {
@@ -30,7 +31,7 @@ JOBS = {
     "harmonic": "HarmonicInterpolation", "heat kernel": "SpectralSignatures",
     "geodesic": "GeodesicDistance", "shortest path": "GeodesicPaths",
     "curvature": "PrincipalCurvatures", "flatten": "Parameterization", "unfold": "MeanCurvatureFlow", "kriging": "GaussianField",
-    "random field": "GaussianField", "fill in": "HarmonicInterpolation"}
+    "reaction-diffusion": "SurfaceDynamics", "random field": "GaussianField", "fill in": "HarmonicInterpolation"}
 
 
 def is_shown(proxy, decorator):

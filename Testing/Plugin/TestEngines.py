@@ -137,6 +137,12 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.gaussian_field(
             p, c, 0.3, 9, [0, 7, 0], [3.0, 5.0, 2.0], 0.1, Statistics=True, **o))
 
+    def test_dynamics(self):
+        for model in ("TuringSpots", "GrayScott", "FitzHughNagumo", "AllenCahn", "Wave"):
+            self.compare(lambda g, p, c, **o: g.dynamics(p, c, model, 0.5, 2, Seed=3, Tolerance=1e-12, **o))
+        self.compare(lambda g, p, c, **o: g.dynamics(
+            p, c, "Transport", 0.5, 2, start=p[:, 0], velocity=p[:, [1, 2, 0]], Tolerance=1e-12, **o))
+
     def test_krige(self):
         self.compare(lambda g, p, c, **o: g.krige(
             p, c, [0, 7, len(p) // 2, 7], [1.0, 2.0, 5.0, 3.0], 0.3, 0.1, number=9, **o))
@@ -217,7 +223,7 @@ class Engines(unittest.TestCase):
                      "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "Parameterization", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
-                     "SurfaceDetail", "SurfaceGradient"):
+                     "SurfaceDetail", "SurfaceDynamics", "SurfaceGradient"):
             algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
             known = module.properties(name)
             self.assertEqual(known.keys(), {method[3:] for method in dir(algorithm) if method.startswith("Set")
@@ -275,7 +281,8 @@ class Engines(unittest.TestCase):
     def test_choices_are_as_many_as_the_filters_have(self):
         owners = {"Amount": "HeatDiffusion", "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
-                  "FunctionSpace": "ScreenedPoisson", "MapType": "Parameterization", "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
+                  "FunctionSpace": "ScreenedPoisson", "MapType": "Parameterization", "Model": "SurfaceDynamics",
+                  "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}
         choices = sys.modules["gridfem_core._inputs"].CHOICES
         self.assertEqual(choices.keys(), owners.keys())
         for choice, names in choices.items():

@@ -27,6 +27,7 @@ COLORED_BY = {
     "SpectralSignatures": ("POINTS", "Signature"),
     "StitchColors": ("POINTS", "StitchedColors"),
     "SurfaceDetail": ("POINTS", "NormalDisplacement"),
+    "SurfaceDynamics": ("POINTS", "U"),
     "SurfaceGradient": ("POINTS", "Laplacian")}
 ZERO_IN_THE_MIDDLE = ("AreaDistortion", "Bending", "Mode", "NormalDisplacement", "Sample000")
 

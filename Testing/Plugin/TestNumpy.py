@@ -276,6 +276,19 @@ class Numpy(unittest.TestCase):
         numpy.testing.assert_allclose(
             diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
 
+    def test_a_wave_of_a_harmonic(self):
+        start = self.points[:, 2]  # u'' = -2 u
+        # Functions finer than the triangles would show the kinks of the start as short waves.
+        options = {"ParameterUnits": 0, "Depth": 4}
+        state = gridfem.dynamics(*self.mesh, "Wave", 2.0, 50, start=start, TimeStep=0.03, **options)
+        omega = numpy.sqrt(2.0)
+        numpy.testing.assert_allclose(state[:, 0], numpy.cos(1.5 * omega) * start, atol=0.02)
+        numpy.testing.assert_allclose(state[:, 1], -omega * numpy.sin(1.5 * omega) * start, atol=0.03)
+        again = gridfem.dynamics(*self.mesh, "Wave", 2.0, 50, start=state, TimeStep=0.03, **options)
+        numpy.testing.assert_allclose(again[:, 0], numpy.cos(3.0 * omega) * start, atol=0.04)
+        with self.assertRaisesRegex(gridfem.Error, "Velocity Array"):
+            gridfem.dynamics(*self.mesh, "Transport", 1.0, 2, **OPTIONS)
+
     def test_random_fields_have_their_standard_deviation(self):
         fields = gridfem.gaussian_field(
             *self.mesh, 0.5, 30, ParameterUnits=0, StandardDeviation=3.0, **OPTIONS)

@@ -35,7 +35,7 @@ CHANGES = {
     "Parameterization": ("MapType", "1"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),
     "SpectralSignatures": ("NumberOfScales", "5"), "StitchColors": ("ReferenceLabel", "1"),
-    "SurfaceDetail": ("DetailScale", "3"), "SurfaceGradient": ("Array", "height")}
+    "SurfaceDetail": ("DetailScale", "3"), "SurfaceDynamics": ("Seed", "7"), "SurfaceGradient": ("Array", "height")}
 
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 

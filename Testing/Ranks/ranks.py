@@ -245,7 +245,8 @@ CHOICES = {
     "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12},
     "SpectralSignatures": {"NumberOfModes": 8, "Tolerance": 1e-12},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
-    "HeatDiffusion": {"NumberOfSteps": 2}}
+    "HeatDiffusion": {"NumberOfSteps": 2},
+    "SurfaceDynamics": {"NumberOfSteps": 2, "PatternLength": 1.0}}
 ARRAYS = {
     "ScreenedPoisson": ["f"], "StitchColors": ["f", "label"], "HeatDiffusion": ["f"],
     "SurfaceGradient": ["f"], "HarmonicInterpolation": ["g"], "GaussianField": ["g"]}

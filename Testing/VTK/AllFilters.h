@@ -20,6 +20,7 @@
 #include "vtkSpectralSignatures.h"
 #include "vtkStitchColors.h"
 #include "vtkSurfaceDetail.h"
+#include "vtkSurfaceDynamics.h"
 #include "vtkSurfaceGradient.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,13 @@ inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeHats()
   return filter;
 }
 
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeDynamics()
+{
+  auto filter = vtkSmartPointer<vtkSurfaceDynamics>::New();
+  filter->SetNumberOfSteps(1);
+  return filter;
+}
+
 struct FilterCase
 {
   const char* name;
@@ -114,7 +122,7 @@ inline auto AllFilters()
     FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures> },
     FilterCase{ "StitchColors", &MakeStitching },
     FilterCase{ "SurfaceDetail", &Make<vtkSurfaceDetail> },
-    FilterCase{ "SurfaceGradient", &MakeGradient });
+    FilterCase{ "SurfaceDynamics", &MakeDynamics }, FilterCase{ "SurfaceGradient", &MakeGradient });
 }
 
 inline std::string NameOf(const ::testing::TestParamInfo<FilterCase>& filter)

@@ -68,7 +68,8 @@ int PowerOfLength(const std::string& array)
     { "MinimumCurvature", -1 }, { "MinimumCurvatureDirection", 0 }, { "Mode", -1 },
     { "NearestPoint", 0 }, { "NormalDisplacement", 1 }, { "PathId", 0 }, { "Prediction", 0 },
     { "QuasiConformalError", 0 }, { "Sample000", 0 }, { "ShapeIndex", 0 }, { "Signature", 0 },
-    { "Solution", 0 }, { "StitchedColors", 0 }, { "TCoords", 0 }, { "WaveKernelSignature", 0 } };
+    { "Solution", 0 }, { "StitchedColors", 0 }, { "TCoords", 0 }, { "U", 0 }, { "V", 0 },
+    { "WaveKernelSignature", 0 } };
   const auto found = powers.find(array);
   EXPECT_TRUE(found != powers.end()) << array << " has no unit in this test";
   return found == powers.end() ? 0 : found->second;

@@ -7,6 +7,7 @@
 #include "Algebra/ColumnAlgebra.h"
 #include "Integrals/DirectionalElements.h"
 #include "Integrals/EdgeSamples.h"
+#include "Integrals/SampledFunctions.h"
 #include "Spaces/SurfaceSpace.h"
 
 #include <memory>
@@ -46,6 +47,11 @@ public:
   /// Returns the values of all functions along segments of triangles, for integrals over curves.
   /// Throws InvalidInput for a triangle that the mesh does not have.
   virtual EdgeSamples SamplesOfSegments(const std::vector<TriangleSegment>& segments) const = 0;
+
+  /// Returns the functions at samples that represent the whole surface, for integrals of terms that
+  /// depend on a solution. Hat functions have a sample at each of their points; a term is linear in
+  /// between.
+  virtual SampledFunctions Samples(const Job& job = {}) const = 0;
 
   /// Returns the coefficients of the mesh's own coordinates, exact up to rounding: functions x 3,
   /// in units of length from the origin. A flow starts from them.

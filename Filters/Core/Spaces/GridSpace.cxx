@@ -169,6 +169,12 @@ EdgeSamples GridSpace::SamplesOfSegments(const std::vector<TriangleSegment>& seg
   return SampleSegments(*functions_, *mesh_, segments);
 }
 
+SampledFunctions GridSpace::Samples(const Job& job) const
+{
+  return SampleFunctions(
+    *functions_, functions_->Finest(), this->Rule(), job, metric_ ? &metric_->area : nullptr);
+}
+
 std::vector<char> GridSpace::PointsWithFunctions() const
 {
   std::vector<char> has(functions_->pointPatch.size());

@@ -226,6 +226,18 @@ EdgeSamples HatSpace::SamplesOfSegments(const std::vector<TriangleSegment>& segm
   return SampleSegments(hats_->functions, grid_.Mesh(), segments);
 }
 
+SampledFunctions HatSpace::Samples(const Job& /*job*/) const
+{
+  RowBuilder rows;
+  RowBuilder::Entries entries;
+  for (Index function = 0; function < hats_->functions.Count(); ++function)
+  {
+    entries.assign(1, { function, 1.0 });
+    rows.Append(entries);
+  }
+  return { rows.Finish(hats_->functions.Count()), this->Matrices().mass };
+}
+
 std::vector<char> HatSpace::PointsWithFunctions() const
 {
   const std::vector<Index>& functionOf = hats_->functions.ofPoint;

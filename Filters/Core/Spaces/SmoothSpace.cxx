@@ -195,6 +195,12 @@ EdgeSamples SmoothSpace::SamplesOfSegments(const std::vector<TriangleSegment>& s
   return SampleSegments(*grid_, this->Finest(), *mesh_, segments);
 }
 
+SampledFunctions SmoothSpace::Samples(const Job& job) const
+{
+  return SampleFunctions(
+    *grid_, this->Finest(), this->Rule(), job, metric_ ? &metric_->area : nullptr);
+}
+
 std::vector<char> SmoothSpace::PointsWithFunctions() const
 {
   std::vector<char> has(grid_->pointPatch.size());

@@ -55,6 +55,7 @@ public:
   Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const override;
   SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
   EdgeSamples SamplesOfSegments(const std::vector<TriangleSegment>& segments) const override;
+  SampledFunctions Samples(const Job& job = {}) const override;
   std::vector<char> PointsWithFunctions() const override;
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 

@@ -42,6 +42,7 @@ const std::map<std::string, MakeProblem> Problems = {
   { "SpectralSignatures", &MakeSignatures },
   { "StitchColors", &MakeStitching },
   { "SurfaceDetail", &MakeDetail },
+  { "SurfaceDynamics", &MakeDynamics },
   { "SurfaceGradient", &MakeGradient },
 };
 

@@ -57,6 +57,7 @@ std::unique_ptr<Problem> MakeCurvatures(Properties& properties);
 std::unique_ptr<Problem> MakeDetail(Properties& properties);
 std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
 std::unique_ptr<Problem> MakeDistance(Properties& properties);
+std::unique_ptr<Problem> MakeDynamics(Properties& properties);
 std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGaussianField(Properties& properties);

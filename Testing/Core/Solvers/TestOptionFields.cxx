@@ -4,6 +4,7 @@
 #include "Solvers/DetailSolver.h"
 #include "Solvers/DiffusionSolver.h"
 #include "Solvers/DistanceSolver.h"
+#include "Solvers/DynamicsSolver.h"
 #include "Solvers/FarthestPointsSolver.h"
 #include "Solvers/FlowSolver.h"
 #include "Solvers/GaussianFieldSolver.h"
@@ -44,10 +45,11 @@ class OptionFields : public ::testing::Test
 };
 
 using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
-  DiffusionSolver::Options, DistanceSolver::Options, FarthestPointsSolver::Options,
-  FlowSolver::Options, GaussianFieldSolver::Options, GradientSolver::Options,
-  InterpolationSolver::Options, ParameterizationSolver::Options, PathSolver::Options,
-  PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
+  DiffusionSolver::Options, DistanceSolver::Options, DynamicsSolver::Options,
+  FarthestPointsSolver::Options, FlowSolver::Options, GaussianFieldSolver::Options,
+  GradientSolver::Options, InterpolationSolver::Options, ParameterizationSolver::Options,
+  PathSolver::Options, PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options,
+  StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace

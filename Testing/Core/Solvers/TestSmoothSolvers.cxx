@@ -3,6 +3,7 @@
 #include "Distance/GeodesicDistance.h"
 #include "Largest.h"
 #include "Meshes.h"
+#include "Solvers/DynamicsSolver.h"
 #include "Solvers/GaussianFieldSolver.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/PoissonSolver.h"
@@ -101,6 +102,12 @@ TEST_F(SmoothSolvers, RefuseDistancesAndHeldValues)
   {
     EXPECT_NE(std::string(error.what()).find("Function Space"), std::string::npos);
   }
+}
+
+TEST_F(SmoothSolvers, RefuseDynamics)
+{
+  EXPECT_THROW(
+    DynamicsSolver::Solve(mesh, {}, DynamicsSolver::Options(), SmoothAt(3)), InvalidInput);
 }
 
 TEST_F(SmoothSolvers, RefuseRandomFields)

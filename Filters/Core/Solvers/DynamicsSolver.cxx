@@ -1,0 +1,262 @@
+#include "Solvers/DynamicsSolver.h"
+
+#include "Base/Errors.h"
+#include "Equations/L2Projection.h"
+#include "Grid/TriangleArea.h"
+#include "Solvers/DynamicsEquation.h"
+#include "Solvers/DynamicsStart.h"
+#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveWarnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+using Model = DynamicsModel;
+
+void RequireInput(const DynamicsSolver::Input& input, const DynamicsSolver::Options& options)
+{
+  RequireOptions(options);
+  if (options.patternLength == 0.0)
+  {
+    throw InvalidInput("Pattern Length is 0. It must be above 0.");
+  }
+  const Id unknowns = NumberOfUnknowns(options);
+  if (input.start.components > unknowns)
+  {
+    throw InvalidInput("Start Array '" + input.start.name + "' has " +
+                       std::to_string(input.start.components) + " components for " +
+                       std::to_string(unknowns) + " unknowns of this Model.");
+  }
+  if (options.model != Model::Transport)
+  {
+    return;
+  }
+  if (options.diffusivity == 0.0)
+  {
+    throw InvalidInput("Diffusivity is 0. It must be above 0.");
+  }
+  if (input.velocity.components != 3)
+  {
+    throw InvalidInput(input.velocity
+                         ? "Velocity Array '" + input.velocity.name + "' has " +
+                             std::to_string(input.velocity.components) + " components instead of 3."
+                         : "Transport needs a Velocity Array with 3 components.");
+  }
+}
+
+/// The side of a regular triangle with the area of the triangle at a random place of the surface.
+double UsualSide(const TriangleMesh& mesh)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const double area = AreaOf(mesh, static_cast<Id>(t));
+    sum += area;
+    squares += area * area;
+  }
+  return sum > 0.0 ? std::sqrt(4.0 / std::sqrt(3.0) * squares / sum) : 0.0;
+}
+
+/// Points show a pattern that is three sides of a triangle long.
+std::vector<std::string> WarningsOfPatterns(
+  const Surface& surface, const DynamicsSolver::Options& options)
+{
+  const double length = surface.LengthInWorldUnits(options.patternLength);
+  const double needed = FunctionsOfPattern(options);
+  const double spacing = std::sqrt(surface.Area() / double(surface.Space().NumberOfFunctions(0)));
+  const double side = UsualSide(surface.Mesh());
+  std::ostringstream text;
+  if (length < needed * spacing)
+  {
+    text << "The Pattern Length is only " << length / spacing << " times the distance between "
+         << "functions, so the grid distorts the result. A larger Depth, or a finer mesh with hat "
+            "functions, resolves it.";
+  }
+  else if (length < 3.0 * side)
+  {
+    text << "The Pattern Length is only " << length / side << " times the side of a triangle, so "
+         << "the points do not show the whole result. They do on a subdivided mesh.";
+  }
+  return NotEmpty({ text.str() });
+}
+
+} // namespace
+
+SurfaceOptions DynamicsSolver::SurfaceDefaults()
+{
+  SurfaceOptions options;
+  options.space.depth = 6;
+  options.choice.normalStabilization = 1e-2;
+  return options;
+}
+
+const DynamicsSolver::Result& DynamicsSolver::Update(
+  Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  RequireInput(input, options);
+  surface.Prepare(job.progress.Part(0.0, 0.2));
+  RequireFirstDegree(surface.UsedOptions().choice.kind, "Patterns and waves");
+  tolerance_ = options.equation.solve.tolerance;
+  this->UpdateEquation(surface, input, options, surface.MakeJob(job.progress.Part(0.2, 0.3)));
+  this->UpdateStart(surface, input, options, surface.MakeJob(job.progress.Part(0.3, 0.35)));
+  this->MakeFrames(surface, options, surface.MakeJob(job.progress.Part(0.35, 1.0)));
+  job.Check(1.0);
+  return result_;
+}
+
+void DynamicsSolver::UpdateEquation(
+  const Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  Options counted = options;
+  counted.numberOfSteps = 1; // more frames continue
+  counted.seed = 0;          // it belongs to the start
+  StageKey key = KeyOfOptions(counted);
+  key.Add(surface.GetStages().Version(SystemStage)).Add(surface.LengthInWorldUnits(1.0));
+  if (options.model == Model::Transport)
+  {
+    key.Add(KeyOf(input.velocity));
+  }
+  surface.GetStages().Run(HierarchyStage, key,
+    [&]
+    {
+      result_.frames.clear(); // frees its memory first
+      equation_.reset();
+      MadeEquation made = MakeEquation(surface, input, options, job);
+      equation_ = std::move(made.equation);
+      substeps_ = made.substeps;
+      result_.timeStep = made.frame;
+      result_.warnings = WarningsOfPatterns(surface, options);
+    });
+}
+
+void DynamicsSolver::UpdateStart(
+  const Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  StageKey key;
+  key.Add(surface.GetStages().Version(SystemStage)).Add(options.model);
+  key.Add(surface.LengthInWorldUnits(options.patternLength));
+  key.Add(KeyOf(input.start)).Add(KeyOf(input.disturbed)).Add(options.seed);
+  surface.GetStages().Run(RightHandSideStage, key,
+    [&]
+    {
+      EquationOptions equation = EndedByTolerance(1e-6);
+      equation.multigrid.threads = job.threads;
+      L2Projection projection(surface.Space(), equation, job.Part(0.0, 0.3));
+      const Field field = StartField(surface, input, options, job.Part(0.3, 0.6));
+      start_ = projection.Solve(surface.Space().LoadOfValues(field, job), {}, job.Part(0.6, 1.0));
+      startReport_ = projection.report;
+    });
+}
+
+/// Goes on to the next frame. After an abort it goes on from the last substep.
+DynamicsSolver::Frame DynamicsSolver::NextFrame(const Surface& surface, const Job& job)
+{
+  if (substepsMade_ == 0)
+  {
+    report_ = SolveReport::Solved();
+  }
+  for (; substepsMade_ < substeps_; ++substepsMade_)
+  {
+    const double share = 1.0 / substeps_;
+    KeepWorse(
+      equation_->Advance(job.Part(share * substepsMade_, share * (substepsMade_ + 1))), report_);
+    extrapolationError_ = std::max(extrapolationError_, equation_->ExtrapolationError());
+  }
+  substepsMade_ = 0;
+  return this->FrameNow(surface);
+}
+
+DynamicsSolver::Frame DynamicsSolver::FrameNow(const Surface& surface) const
+{
+  const MultiVector& coefficients = equation_->Coefficients();
+  const double area = std::pow(surface.Space().UnitLength(), 2);
+  const std::vector<double>& integrals = surface.Space().Integrals();
+  const Eigen::Map<const Eigen::VectorXd> weights(
+    integrals.data(), static_cast<Id>(integrals.size()));
+  Frame frame;
+  frame.atPoints = surface.ValuesAtPoints(coefficients);
+  frame.report = report_;
+  frame.extrapolationError = extrapolationError_;
+  frame.integral = area * (coefficients.transpose() * weights).array();
+  frame.energy = area * equation_->Energy(surface.MakeJob({}));
+  return frame;
+}
+
+void DynamicsSolver::MakeFrames(const Surface& surface, const Options& options, const Job& job)
+{
+  Stages& stages = surface.GetStages();
+  std::vector<Frame>& frames = result_.frames;
+  StageKey key;
+  key.Add(stages.Version(RightHandSideStage)).Add(stages.Version(HierarchyStage));
+  if (frames.empty() || key != ofFrames_)
+  {
+    frames.clear();
+    ofFrames_ = key;
+    equation_->Start(start_);
+    substepsMade_ = 0;
+    report_ = startReport_;
+    extrapolationError_ = 0.0;
+    frames.push_back(this->FrameNow(surface));
+  }
+  const auto wanted = static_cast<std::size_t>(options.numberOfSteps) + 1;
+  surface.Require({ double(wanted - std::min(wanted, frames.size())) *
+                      double(frames.front().atPoints.size()) * sizeof(double),
+    "Number Of Steps " + std::to_string(options.numberOfSteps), "Choose fewer steps." });
+  const std::size_t first = frames.size();
+  const double share = 1.0 / std::max<double>(1.0, double(wanted) - double(first));
+  while (frames.size() < wanted)
+  {
+    const double done = share * double(frames.size() - first);
+    StageKey ofFrame = key;
+    ofFrame.Add(static_cast<std::int64_t>(frames.size()));
+    stages.Run(SolveStage, ofFrame,
+      [&] { frames.push_back(this->NextFrame(surface, job.Part(done, done + share))); });
+  }
+}
+
+std::vector<std::string> DynamicsSolver::Warnings(int frame) const
+{
+  std::vector<std::string> warnings = result_.warnings;
+  const Frame& shown = result_.frames.at(static_cast<std::size_t>(frame));
+  const SolveReport& report = shown.report;
+  if (report.end == SolveEnd::NotFinite)
+  {
+    warnings.emplace_back("The values have left the range of numbers. Reactions this fast need "
+                          "a shorter Time Step, or another start.");
+    return warnings;
+  }
+  if (!report.converged)
+  {
+    warnings.push_back(WarningOf(report, tolerance_));
+  }
+  if (shown.extrapolationError > 0.1)
+  {
+    std::ostringstream text;
+    text << "Reactions or transport change so fast that a step of the solver is wrong by "
+         << 100.0 * shown.extrapolationError << " % of the largest value. A shorter Time Step is "
+         << "more exact.";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+DynamicsSolver::Result DynamicsSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
+  const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
+{
+  Stages stages;
+  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
+  DynamicsSolver solver;
+  solver.Update(surface, input, options, job);
+  solver.result_.warnings = solver.Warnings(options.numberOfSteps);
+  return std::move(solver.result_);
+}
+
+} // namespace gridfem

@@ -1,0 +1,150 @@
+// Surface Dynamics as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkSurfaceDynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Radius = 2.0;
+
+vtkSmartPointer<vtkSurfaceDynamics> MakeFilter(int model, int steps)
+{
+  auto data = ToPolyData(GeodesicSphere(16, Radius));
+  AddPointArray(data, "xy", 1, [](const Vec3& p, int) { return p[0] * p[1]; });
+  AddPointArray(
+    data, "w", 3, [](const Vec3& p, int c) { return c == 0   ? -p[1]
+                                                    : c == 1 ? p[0]
+                                                             : 0.0; });
+  auto filter = vtkSmartPointer<vtkSurfaceDynamics>::New();
+  filter->SetDepth(5);
+  filter->SetInputDataObject(data);
+  filter->SetParameterUnits(vtkSurfaceFEMAlgorithm::World);
+  filter->SetPatternLength(1.0);
+  filter->SetModel(model);
+  filter->SetNumberOfSteps(steps);
+  return filter;
+}
+
+std::vector<double> StateAt(vtkSurfaceDynamics* filter, double step, const char* name)
+{
+  EXPECT_EQ(filter->UpdateTimeStep(step), 1);
+  EXPECT_EQ(FieldValue(filter->GetOutputDataObject(0), "Step"), step);
+  return PointValues(filter->GetOutputDataObject(0), name);
+}
+
+} // namespace
+
+TEST(SurfaceDynamicsFilter, StandingWavesTurnAsTheSphereSays)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Wave, 4);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "xy");
+  filter->SetTimeStep(0.5);
+  const double omega = std::sqrt(6.0) / Radius;
+  const std::vector<double> start = PointValues(filter->GetInputDataObject(0, 0), "xy");
+  for (const int step : { 3, 1, 4 })
+  {
+    const std::vector<double> u = StateAt(filter, step, "U");
+    const std::vector<double> v = StateAt(filter, step, "V");
+    ASSERT_EQ(u.size(), start.size());
+    for (std::size_t i = 0; i < u.size(); ++i)
+    {
+      ASSERT_NEAR(u[i], std::cos(omega * 0.5 * step) * start[i], 0.04 * Radius);
+      ASSERT_NEAR(v[i], -omega * std::sin(omega * 0.5 * step) * start[i], 0.06 * Radius);
+    }
+    EXPECT_DOUBLE_EQ(FieldValue(filter->GetOutputDataObject(0), "Time"), 0.5 * step);
+    EXPECT_GT(FieldValue(filter->GetOutputDataObject(0), "Energy"), 0.0);
+  }
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 4);
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+}
+
+TEST(SurfaceDynamicsFilter, ComputesOnlyTheStepsThatAreShown)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::TuringSpots, 30);
+  StateAt(filter, 2, "U");
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 2);
+  StateAt(filter, 5, "V");
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 5);
+  StateAt(filter, 0, "U");
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 5);
+  EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "U");
+}
+
+TEST(SurfaceDynamicsFilter, WithoutATimeItShowsTheLastStep)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::AllenCahn, 3);
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutputDataObject(0), "Step"), 3);
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("V"));
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->HasArray("Energy"));
+}
+
+TEST(SurfaceDynamicsFilter, CarriesAlongItsVelocityAndKeepsTheIntegral)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Transport, 2);
+  {
+    const Messages messages(filter);
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find("Transport needs a Velocity Array"), std::string::npos);
+  }
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "w");
+  const std::vector<double> start = StateAt(filter, 0, "U");
+  const double integral = FieldValue(filter->GetOutputDataObject(0), "Integral");
+  EXPECT_GT(integral, 0.0);
+  EXPECT_NE(StateAt(filter, 2, "U"), start);
+  EXPECT_NEAR(FieldValue(filter->GetOutputDataObject(0), "Integral"), integral, 1e-6 * integral);
+}
+
+/// After each change the output is the output of a new filter with the same properties.
+TEST(SurfaceDynamicsFilter, NeverShowsAnOldResult)
+{
+  using Change = std::function<void(vtkSurfaceDynamics*)>;
+  const std::vector<Change> changes = { [](vtkSurfaceDynamics* f)
+    { f->SetParameterUnits(vtkSurfaceFEMAlgorithm::UnitCube); },
+    [](vtkSurfaceDynamics* f) { f->SetPatternLength(0.5); },
+    [](vtkSurfaceDynamics* f) { f->SetModel(vtkSurfaceDynamics::GrayScott); },
+    [](vtkSurfaceDynamics* f) { f->SetFeed(0.03); },
+    [](vtkSurfaceDynamics* f) { f->SetKill(0.05); }, [](vtkSurfaceDynamics* f) { f->SetSeed(5); },
+    [](vtkSurfaceDynamics* f) { f->SetTimeStep(3.0); },
+    [](vtkSurfaceDynamics* f) { f->SetModel(vtkSurfaceDynamics::Wave); },
+    [](vtkSurfaceDynamics* f) { f->SetDamping(2.0); },
+    [](vtkSurfaceDynamics* f)
+    { f->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "xy"); },
+    [](vtkSurfaceDynamics* f)
+    { f->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "w"); },
+    [](vtkSurfaceDynamics* f) { f->SetModel(vtkSurfaceDynamics::Transport); },
+    [](vtkSurfaceDynamics* f) { f->SetDiffusivity(0.01); },
+    [](vtkSurfaceDynamics* f) { f->SetDepth(4); },
+    [](vtkSurfaceDynamics* f) { f->SetNumberOfSteps(2); } };
+  auto filter = MakeFilter(vtkSurfaceDynamics::TuringSpots, 1);
+  for (std::size_t last = 0; last < changes.size(); ++last)
+  {
+    changes[last](filter);
+    filter->Update();
+    auto fresh = MakeFilter(vtkSurfaceDynamics::TuringSpots, 1);
+    for (std::size_t k = 0; k <= last; ++k)
+    {
+      changes[k](fresh);
+    }
+    fresh->Update();
+    EXPECT_EQ(PointValues(filter->GetOutputDataObject(0), "U"),
+      PointValues(fresh->GetOutputDataObject(0), "U"))
+      << last;
+    EXPECT_EQ(FieldValue(filter->GetOutputDataObject(0), "Time"),
+      FieldValue(fresh->GetOutputDataObject(0), "Time"))
+      << last;
+  }
+}
