@@ -187,10 +187,10 @@ def properties_of_panels():
 
 
 def choices_of_panel(path):
-    """Returns the texts of each choice in a panel, without spaces."""
+    """Returns the texts of each choice in a panel, without spaces and hyphens."""
     text = re.sub(r"^@(\w+)@$", lambda shared: (ROOT / f"Plugin/Shared/{shared[1]}.xml").read_text(),
                   path.read_text(), flags=re.M)
-    return {name: re.sub(" ", "", ",".join(re.findall(r'<Entry value="\d+" text="([^"]*)"', body))).split(",")
+    return {name: re.sub("[ -]", "", ",".join(re.findall(r'<Entry value="\d+" text="([^"]*)"', body))).split(",")
             for name, body in re.findall(
                 r'<IntVectorProperty name="(\w+)"(.*?)</IntVectorProperty>', text, re.DOTALL)
             if "<Entry" in body}
