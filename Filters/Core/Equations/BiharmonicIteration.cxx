@@ -130,6 +130,16 @@ SolveReport SolveForMultipliers(NodalProducts& products, Id points, int threads,
   return SolveConjugateGradients(S, divide, right, multipliers, options, {}, progress);
 }
 
+/// Replaces the report of a solution by the report of a solve that has failed.
+void ReportFailure(const SolveReport& report, double wanted, ConstrainedSolution& solution)
+{
+  if (solution.report.converged && !report.converged)
+  {
+    solution.report = report;
+    solution.wanted = wanted;
+  }
+}
+
 } // namespace
 
 ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
@@ -140,11 +150,12 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
     space, 0.0, 1.0, rows, Penalty, options.multigrid, progress.Part(0.0, 0.03));
   const ConstrainedHierarchy strict(space, 0.0, 1.0, rows, options.constraints.penalty,
     options.multigrid, progress.Part(0.03, 0.06));
-  // Contradictory values would keep conjugate gradients from converging.
+  // Contradictory values would keep conjugate gradients from converging. A solve that ends early
+  // misses all values, and says nothing about them.
   ConstrainedSolution solution = SolveConstrained(
     space, 0.0, strict, {}, values, options.constraints, options.solve, progress.Part(0.06, 0.1));
   MultiVector wanted = values;
-  if (!solution.isExact)
+  if (solution.report.converged && !solution.isExact)
   {
     Multiply(rows, solution.coefficients, wanted, threads);
   }
@@ -166,7 +177,6 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
   solution.report = SolveForMultipliers(products, rows.rows, threads,
     products.Weighted(wanted - products.AtPoints(penalised)), outer, multipliers,
     progress.Part(0.1, 0.9));
-  solution.report.converged = solution.report.converged && products.inner.converged;
   solution.coefficients =
     penalised + products.Invert(products.MassOf(products.Spread(multipliers)));
 
@@ -174,6 +184,8 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
     SolveConstrained(space, 0.0, strict, {}, wanted - products.AtPoints(solution.coefficients),
       options.constraints, options.solve, progress.Part(0.9, 1.0));
   solution.coefficients += rest.coefficients;
+  ReportFailure(products.inner, inner.tolerance, solution);
+  ReportFailure(rest.report, options.solve.tolerance, solution);
   SubtractConstants(-mean, components.ofFunction, solution.coefficients);
   return solution;
 }

@@ -101,6 +101,7 @@ void ConstrainedEquation::Solve(const Surface& surface, const PoissonRequest& re
     {
       const double weight = surface.WeightInSpaceUnits(request.weight);
       MultiVector load = weight * values_;
+      unbalanced_ = 0;
       if (load_.gradients.rows() > 0)
       {
         load += request.gradientScale * load_.gradients;
@@ -143,7 +144,6 @@ MultiVector ConstrainedEquation::BalancedFlux(const Surface& surface, double wei
     components.ofFunction, space->Integrals(), components.count, threads, distributed);
   MultiVector balanced = load_.flux;
   means.SubtractIntegrals(MeansOfFree(isHeld, means.OfIntegrals(load_.flux)), balanced);
-  unbalanced_ = 0;
   for (Index c = 0; c < components.count; ++c)
   {
     const bool isOff = (sum.row(c).cwiseAbs().array() > Visible * size.row(c).array()).any();

@@ -105,7 +105,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   RequireOptions(options);
   const double accuracy = surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
   const bool choose = accuracy > 0.0;
-  int depth = choose ? this->FirstDepth(surface, options) : 0;
+  now_ = choose ? this->FirstDepth(surface, options) : Choice();
   double done = 0.0;
   while (true)
   {
@@ -113,7 +113,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
     const Progress progress = job.progress.Part(done, end);
     if (choose)
     {
-      surface.PrepareAtDepth(depth, progress.Part(0.0, 0.5));
+      surface.PrepareAtDepth(now_.depth, progress.Part(0.0, 0.5));
     }
     else
     {
@@ -122,33 +122,46 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
     progress.Check(0.5);
     this->UpdateModes(surface, input, options, progress.Part(0.5, 1.0));
     result_.depth = surface.UsedOptions().space.depth;
-    depth = this->NextDepth(surface, accuracy);
-    if (depth == result_.depth)
+    const int next = this->NextDepth(surface, accuracy);
+    if (next == result_.depth)
     {
       break;
     }
+    now_ = { next, this->AreGridErrorsAtMost(accuracy) };
     done = end;
   }
-  chosenDepth_ = choose ? depth : chosenDepth_;
+  chosen_ = choose ? now_ : chosen_;
   this->Judge(surface, options);
   return result_;
 }
 
 /// Returns the depth that was found last time for the same mesh and options, else a first guess.
-int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
+SpectrumSolver::Choice SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 {
   StageKey key = surface.InputKey();
   key.Add(options.numberOfModes).Add(options.accuracy).Add(options.zeroBoundaryValues);
   if (key != depthKey_)
   {
-    depthKey_ = key;
-    wasAccurate_ = false;
     const std::shared_ptr<const TriangleMesh> mesh = surface.ReadMesh();
     RequireSurface(*mesh);
-    chosenDepth_ = FirstDepthForModes(
-      *mesh, options.numberOfModes, options.accuracy, surface.UsedOptions().choice.kind);
+    chosen_ = { FirstDepthForModes(*mesh, options.numberOfModes, options.accuracy,
+                  surface.UsedOptions().choice.kind),
+      false };
+    depthKey_ = key;
   }
-  return chosenDepth_;
+  return chosen_;
+}
+
+/// Whether the errors on the grid are certain enough to end a search.
+bool SpectrumSolver::IsConfirmed() const
+{
+  return areTrusted_ || now_.wasAccurate;
+}
+
+bool SpectrumSolver::AreGridErrorsAtMost(double accuracy) const
+{
+  return std::all_of(
+    gridErrors_.begin(), gridErrors_.end(), [=](double error) { return error <= accuracy; });
 }
 
 /// Returns the depth at which the errors on the grid should be small enough, if that fits into
@@ -156,7 +169,7 @@ int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 int SpectrumSolver::NextDepth(const Surface& surface, double accuracy) const
 {
   const SurfaceOptions& used = surface.UsedOptions();
-  return accuracy > 0.0 ? NextDepthForModes(surface.Mesh(), gridErrors_, isConfirmed_,
+  return accuracy > 0.0 ? NextDepthForModes(surface.Mesh(), gridErrors_, this->IsConfirmed(),
                             used.space.depth, accuracy, used.choice.kind)
                         : used.space.depth;
 }
@@ -168,10 +181,11 @@ void SpectrumSolver::UpdateModes(
   const bool isNested = !space.NestedLevels();
   Options ofModes = options;
   // Improvement after the nested levels waits for the depth that the accuracy asks for.
-  ofModes.accuracy = isNested || surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
+  const bool mayGoOn = !isNested && !surface.AreFunctionsGiven();
+  ofModes.accuracy = mayGoOn ? options.accuracy : 0.0;
   StageKey key;
   key.Add(surface.GetStages().Version(SystemStage)).Add(input.completesMultiplets);
-  key.Add(KeyOfOptions(ofModes));
+  key.Add(KeyOfOptions(ofModes)).Add(mayGoOn && now_.wasAccurate);
   surface.GetStages().Run(SolveStage, key,
     [&]
     {
@@ -188,7 +202,7 @@ void SpectrumSolver::UpdateModes(
       const SpectrumOptions ofSpectrum = OptionsOfSpectrum(surface, input, options);
       const double split = isNested ? 1.0 : 0.3;
       Spectrum nested = ComputeNestedSpectrum(levels, ofSpectrum, progress.Part(0.0, split));
-      this->TakeGridErrors(nested, options);
+      this->TakeGridErrors(nested, options.numberOfModes);
       if (isNested ||
           this->NextDepth(surface, ofModes.accuracy) == surface.UsedOptions().space.depth)
       {
@@ -200,16 +214,14 @@ void SpectrumSolver::UpdateModes(
 }
 
 /// @param nested  may have more modes than wanted: guards
-void SpectrumSolver::TakeGridErrors(const Spectrum& nested, const Options& options)
+void SpectrumSolver::TakeGridErrors(const Spectrum& nested, int wanted)
 {
   gridErrors_ = nested.estimatedErrors;
   std::vector<char> isTrusted = nested.isErrorTrusted;
-  const auto wanted = std::min<std::size_t>(gridErrors_.size(), options.numberOfModes);
-  gridErrors_.resize(wanted);
-  isTrusted.resize(wanted);
-  isConfirmed_ = wasAccurate_ || AreAllTrusted(isTrusted);
-  wasAccurate_ = std::all_of(gridErrors_.begin(), gridErrors_.end(),
-    [&](double error) { return error <= options.accuracy; });
+  const auto count = std::min<std::size_t>(gridErrors_.size(), wanted);
+  gridErrors_.resize(count);
+  isTrusted.resize(count);
+  areTrusted_ = AreAllTrusted(isTrusted);
 }
 
 /// The warnings, and whether the eigenvalues are as accurate as wanted.
@@ -226,8 +238,9 @@ void SpectrumSolver::Judge(const Surface& surface, const Options& options)
   const std::vector<double>& errors = result_.spectrum.estimatedErrors;
   const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
   result_.isErrorTrusted = AreAllTrusted(result_.spectrum.isErrorTrusted);
-  result_.isAccurate = options.accuracy == 0.0 ||
-                       (error <= options.accuracy && (isConfirmed_ || result_.isErrorTrusted));
+  result_.isAccurate =
+    options.accuracy == 0.0 ||
+    (error <= options.accuracy && (this->IsConfirmed() || result_.isErrorTrusted));
   if (!result_.isAccurate)
   {
     result_.warnings.push_back(WarningOfAccuracy(options.accuracy, error, kind, result_.depth));

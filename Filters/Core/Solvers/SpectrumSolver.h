@@ -87,19 +87,28 @@ public:
     const Job& job = {});
 
 private:
-  int FirstDepth(Surface& surface, const Options& options);
+  /// A depth of a search.
+  struct Choice
+  {
+    int depth = 0;
+    bool wasAccurate = false; // whether the errors were small enough at the depth before
+  };
+
+  Choice FirstDepth(Surface& surface, const Options& options);
+  bool IsConfirmed() const;
+  bool AreGridErrorsAtMost(double accuracy) const;
   int NextDepth(const Surface& surface, double accuracy) const;
   void UpdateModes(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
-  void TakeGridErrors(const Spectrum& nested, const Options& options);
+  void TakeGridErrors(const Spectrum& nested, int wanted);
   void Judge(const Surface& surface, const Options& options);
 
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
-  bool isConfirmed_ = false;       // whether these errors are certain enough to end a search
-  bool wasAccurate_ = false;       // whether they were small enough at the depth before
+  bool areTrusted_ = false;        // all of these errors
   bool lacksBoundary_ = false;     // though the modes are to vanish there
   StageKey depthKey_;              // of the mesh and the wishes that a depth was chosen for
-  int chosenDepth_ = 0;
+  Choice chosen_;                  // for them
+  Choice now_;                     // the depth of the solve, if it is chosen
   Result result_;
 };
 

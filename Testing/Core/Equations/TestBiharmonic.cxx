@@ -157,6 +157,41 @@ TEST(Biharmonic, MeetsValuesThatContradictEachOtherInTheMean)
   EXPECT_LT(LargestDifference(*space, found.coefficients, expected.coefficients), 1e-3);
 }
 
+/// With any limit of the iterations the values are met, or the report says that they may not be.
+TEST(Biharmonic, HasConvergedOnlyWhereTheValuesAreMet)
+{
+  const TriangleMesh mesh = GeodesicSphere(12);
+  for (const bool isOnHats : { false, true })
+  {
+    const auto space = BuildEither(mesh, isOnHats, isOnHats ? 4 : 5, 1e-2);
+    const std::vector<Id> points = EveryPoint(mesh, 5);
+    const MultiVector values = ValuesAt(mesh, points);
+    const SparseMatrix rows = space->RowsAtPoints(points);
+    for (const double tolerance : { 1e-1, 1e-2, 1e-6 })
+    {
+      for (const int limit : { 1, 3, 5, 8, 80 })
+      {
+        InterpolationOptions options;
+        options.smoothness = Smoothness::Biharmonic;
+        options.mostAtOnce = 0;
+        options.solve.tolerance = tolerance;
+        options.solve.maximumIterations = limit;
+        const ConstrainedSolution found = InterpolateHarmonically(*space, rows, values, options);
+        EXPECT_TRUE(limit > 1 || !found.report.converged) << tolerance;
+        EXPECT_TRUE(limit < 80 || found.report.converged) << tolerance;
+        if (found.report.converged)
+        {
+          EXPECT_LT(found.relativeMisfit, 1e-5) << tolerance << " " << limit;
+        }
+        else
+        {
+          EXPECT_EQ(found.report.end, SolveEnd::IterationLimit) << tolerance << " " << limit;
+        }
+      }
+    }
+  }
+}
+
 TEST(Biharmonic, IsNaNOnComponentsWithoutAPoint)
 {
   const TriangleMesh sphere = GeodesicSphere(10);

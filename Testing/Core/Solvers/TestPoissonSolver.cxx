@@ -3,6 +3,7 @@
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/PoissonSolver.h"
+#include "Solvers/SolveWarnings.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -307,6 +308,29 @@ TEST(PoissonSolver, KeepsTheVariationAboveALargeConstant)
       }
     }
   }
+}
+
+TEST(PoissonSolver, WarnsOfAFluxOnlyWhileThereIsOne)
+{
+  const auto mesh = Bowl();
+  PoissonSolver::Input input = InputOn(*mesh);
+  PoissonSolver::Options options = Exactly();
+  options.screeningWeight = 0.0;
+  options.fillUnknown = true;
+  Stages stages;
+  LocalSurface surface(stages, mesh, AtDepth(4));
+  PoissonSolver solver;
+  const auto warnings = [&]
+  {
+    const std::vector<std::string> found = solver.Update(surface, input, options, {}).warnings;
+    EXPECT_EQ(found, PoissonSolver::Solve(mesh, input, options, AtDepth(4)).warnings);
+    return Joined(found);
+  };
+  const MultiVector one = MultiVector::Ones(static_cast<Id>(mesh->points.size()), 1);
+  input.flux = GivenField::Of("flux", { FieldAssociation::Points, one }, 1);
+  EXPECT_NE(warnings().find("does not add up to 0"), std::string::npos);
+  input.flux = {};
+  EXPECT_EQ(warnings().find("flux"), std::string::npos);
 }
 
 TEST(PoissonSolver, AWantedErrorChoosesTheDepth)

@@ -160,6 +160,28 @@ TEST_F(Spectra, AnAccuracyIsReachedOnlyWhereTheSurfaceIsResolved)
   }
 }
 
+/// Neither another accuracy nor another tolerance confirms the errors of a depth by themselves.
+/// Each update chooses the depth that a new solver chooses, and confirms it likewise.
+TEST_F(Spectra, AnAccuracyIsConfirmedAsInANewSolver)
+{
+  const auto pleats = std::make_shared<const TriangleMesh>(Pleats());
+  options.numberOfModes = 6;
+  LocalSurface surface(stages, pleats, asked);
+  for (const double accuracy : { 0.3, 0.15, 0.1 })
+  {
+    for (const double tolerance : { 1e-6, 1e-4 })
+    {
+      options.accuracy = accuracy;
+      options.equation.solve.tolerance = tolerance;
+      const SpectrumSolver::Result fresh = SpectrumSolver::Solve(pleats, {}, options, asked);
+      const SpectrumSolver::Result& result = solver.Update(surface, {}, options, {});
+      EXPECT_EQ(result.depth, fresh.depth) << accuracy;
+      EXPECT_EQ(result.isAccurate, fresh.isAccurate) << accuracy;
+      EXPECT_EQ(result.warnings, fresh.warnings) << accuracy;
+    }
+  }
+}
+
 /// A surface whose functions a basis gives.
 class GivenSurface : public LocalSurface
 {
