@@ -8,7 +8,7 @@ namespace gridfem
 namespace
 {
 
-std::tuple<int, Index, double> OperatorKey(const SpaceChoice& choice)
+OperatorKey OperatorKeyOf(const SpaceChoice& choice)
 {
   return { choice.quadratureDegree, choice.coarsestSize, choice.normalStabilization };
 }
@@ -58,10 +58,12 @@ std::shared_ptr<const FiniteElementSpace> FindSpace(
 {
   if (choice.kind == FunctionKind::SmoothGrid)
   {
-    return OnSmoothGrid(basis, basis.smooth->Find(OperatorKey(choice)));
+    return OnSmoothGrid(basis, basis.smooth->Find(OperatorKeyOf(choice)));
   }
-  return Compose(basis, basis.operators->Find(OperatorKey(choice)), choice.kind,
-    choice.kind == FunctionKind::Hats ? basis.hats->Find(basis.weldCoincidentPoints) : nullptr);
+  return Compose(basis, basis.operators->Find(OperatorKeyOf(choice)), choice.kind,
+    choice.kind == FunctionKind::Hats
+      ? basis.hats->Find({ basis.weldCoincidentPoints, OperatorKeyOf(choice) })
+      : nullptr);
 }
 
 std::shared_ptr<const FiniteElementSpace> MakeSpace(
@@ -70,7 +72,7 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const QuadratureRule& rule = TriangleRule(choice.quadratureDegree);
   if (choice.kind == FunctionKind::SmoothGrid)
   {
-    return OnSmoothGrid(basis, basis.smooth->Get(OperatorKey(choice),
+    return OnSmoothGrid(basis, basis.smooth->Get(OperatorKeyOf(choice),
                                  [&]
                                  {
                                    return BuildSmoothOperators(*basis.space,
@@ -78,7 +80,7 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
                                      choice.coarsestSize, job);
                                  }));
   }
-  auto operators = basis.operators->Get(OperatorKey(choice),
+  auto operators = basis.operators->Get(OperatorKeyOf(choice),
     [&]
     {
       return BuildLevelOperators(
@@ -87,11 +89,11 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   std::shared_ptr<const HatLevel> hats;
   if (choice.kind == FunctionKind::Hats)
   {
-    hats = basis.hats->Get(basis.weldCoincidentPoints,
+    hats = basis.hats->Get({ basis.weldCoincidentPoints, OperatorKeyOf(choice) },
       [&]
       {
         RequireMemoryForHats(*basis.mesh, basis.space->Finest().numberOfFunctions);
-        return BuildHatLevel(*basis.mesh, *basis.space, basis.weldCoincidentPoints,
+        return BuildHatLevel(*basis.mesh, *basis.space, choice, basis.weldCoincidentPoints,
           HatTransfer::Evaluation, job.Part(0.7, 1.0));
       });
   }

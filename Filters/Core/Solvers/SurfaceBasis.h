@@ -11,13 +11,16 @@
 
 #include <memory>
 #include <tuple>
+#include <utility>
 
 namespace gridfem
 {
 
-using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators>;
-using SmoothStore = SharedStore<std::tuple<int, Index, double>, SmoothOperators>;
-using HatStore = SharedStore<bool, HatLevel>;
+/// The options of operators: quadrature degree, coarsest size, and normal stabilization.
+using OperatorKey = std::tuple<int, Index, double>;
+using OperatorStore = SharedStore<OperatorKey, LevelOperators>;
+using SmoothStore = SharedStore<OperatorKey, SmoothOperators>;
+using HatStore = SharedStore<std::pair<bool, OperatorKey>, HatLevel>;
 
 /// The basis of a surface. It is immutable except for the stores, so that filters and threads may
 /// share it.
@@ -29,7 +32,7 @@ struct SurfaceBasis
   /// different meshes share one store, so that the first user changes no bit.
   std::shared_ptr<OperatorStore> operators;
   std::shared_ptr<SmoothStore> smooth; // the same for quadratic functions
-  std::shared_ptr<HatStore> hats;      // by WeldCoincidentPoints
+  std::shared_ptr<HatStore> hats;      // by WeldCoincidentPoints, and the operators below
   bool weldCoincidentPoints = true;
 
   explicit operator bool() const { return space != nullptr; }

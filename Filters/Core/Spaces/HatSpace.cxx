@@ -16,13 +16,14 @@ namespace
 {
 
 /// Returns the same grid with functions that are joined where sheets touch at points.
-std::shared_ptr<const GridSpace> JoinAtPoints(
-  const TriangleMesh& mesh, const GridFunctions& grid, bool weldCoincidentPoints, const Job& job)
+std::shared_ptr<const GridSpace> JoinAtPoints(const TriangleMesh& mesh, const GridFunctions& grid,
+  const OperatorOptions& ofGrid, bool weldCoincidentPoints, const Job& job)
 {
-  GridSpaceOptions options;
+  GridSpaceOptions options{ ofGrid, {} };
   options.functions.depth = grid.GetGrid().depth;
   options.functions.weldCoincidentPoints = weldCoincidentPoints;
   options.functions.joinAtPoints = true;
+  options.functions.connectivityAware = grid.support == FunctionSupport::ConnectivityAware;
   options.functions.threads = job.threads;
   return std::make_shared<const GridSpace>(BuildGridSpace(mesh, options, job.progress));
 }
@@ -30,7 +31,7 @@ std::shared_ptr<const GridSpace> JoinAtPoints(
 } // namespace
 
 HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
-  bool weldCoincidentPoints, HatTransfer transfer, const Job& job)
+  const OperatorOptions& ofGrid, bool weldCoincidentPoints, HatTransfer transfer, const Job& job)
 {
   HatOptions options;
   options.weldCoincidentPoints = weldCoincidentPoints;
@@ -50,7 +51,7 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   job.Check(0.5);
   if (hats.functions.numberOfComponents < grid.numberOfComponents)
   {
-    hats.joinedGrid = JoinAtPoints(mesh, grid, weldCoincidentPoints, job.Part(0.5, 0.8));
+    hats.joinedGrid = JoinAtPoints(mesh, grid, ofGrid, weldCoincidentPoints, job.Part(0.5, 0.8));
   }
   hats.prolongation = BuildHatProlongation(hats.functions,
     hats.joinedGrid ? hats.joinedGrid->Functions() : grid, mesh, transfer, job.threads);
@@ -381,8 +382,8 @@ HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTr
 {
   GridSpace grid = BuildGridSpace(std::move(mesh), options, progress.Part(0.0, 0.8));
   auto hats = std::make_shared<const HatLevel>(
-    BuildHatLevel(grid.Mesh(), grid.Functions(), options.functions.weldCoincidentPoints, transfer,
-      { options.functions.threads, progress.Part(0.8, 1.0) }));
+    BuildHatLevel(grid.Mesh(), grid.Functions(), options, options.functions.weldCoincidentPoints,
+      transfer, { options.functions.threads, progress.Part(0.8, 1.0) }));
   return HatSpace(std::move(hats), std::move(grid));
 }
 

@@ -26,10 +26,12 @@ struct HatLevel
 };
 
 /// Builds the data of the hats. Throws InvalidInput when no triangle has an area.
-/// @param mesh  the mesh that the grid's functions were made from, with the same
+/// @param mesh    the mesh that the grid's functions were made from, with the same
 ///   weldCoincidentPoints
+/// @param ofGrid  the options of the given grid's operators, also for a grid that replaces it
 HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
-  bool weldCoincidentPoints, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
+  const OperatorOptions& ofGrid, bool weldCoincidentPoints,
+  HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
 
 /// Level 0 consists of the hats, and level l + 1 is level l of the grid. The hats are relaxed by
 /// Gauss-Seidel with twice the sweeps of the grid's levels, and in groups after a sweep.

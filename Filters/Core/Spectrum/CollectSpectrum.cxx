@@ -105,7 +105,7 @@ std::vector<double> Ordered(const List& list, const std::vector<Index>& order)
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
   const BlockReport& report, double tolerance, const SpectralProblem<Real>& problem,
-  const Progress& progress)
+  Eigen::MatrixXd& ofPairs, const Progress& progress)
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
@@ -156,6 +156,9 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   std::vector<double> residuals(zeros, 0.0);
   residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());
   spectrum.residuals = Ordered(residuals, order);
+  std::vector<Index> ofOthers(order.begin() + zeros, order.end());
+  std::for_each(ofOthers.begin(), ofOthers.end(), [&](Index& place) { place -= zeros; });
+  ofPairs = Eigen::MatrixXd(ofPairs(ofOthers, Eigen::all));
   spectrum.estimatedErrors.assign(zeros, 0.0);
   spectrum.isErrorTrusted.assign(zeros, 1);
   spectrum.numberOfConverged = static_cast<Index>(std::count_if(spectrum.residuals.begin(),
@@ -166,8 +169,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
 }
 
 template Spectrum CollectSpectrum(const Constants&, Index, EigenPairs<float>&, const BlockReport&,
-  double, const SpectralProblem<float>&, const Progress&);
+  double, const SpectralProblem<float>&, Eigen::MatrixXd&, const Progress&);
 template Spectrum CollectSpectrum(const Constants&, Index, EigenPairs<double>&, const BlockReport&,
-  double, const SpectralProblem<double>&, const Progress&);
+  double, const SpectralProblem<double>&, Eigen::MatrixXd&, const Progress&);
 
 } // namespace gridfem

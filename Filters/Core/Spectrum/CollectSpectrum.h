@@ -16,10 +16,12 @@ namespace gridfem
 /// end and with the value NaN, because it may have a mass in double precision. Estimated errors are
 /// 0 for the constants and not set for the others. Takes the vectors out of `pairs`.
 /// @param tolerance  a pair has converged when the square of its residual is no larger
+/// @param ofPairs    a row of numbers for each pair of the report; they become the rows of the
+///   vectors behind the constants
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
   const BlockReport& report, double tolerance, const SpectralProblem<Real>& problem,
-  const Progress& progress = {});
+  Eigen::MatrixXd& ofPairs, const Progress& progress = {});
 
 } // namespace gridfem
 

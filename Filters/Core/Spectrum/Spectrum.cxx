@@ -64,12 +64,6 @@ std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
   return level;
 }
 
-template<class Number>
-void Append(std::vector<Number>& list, const std::vector<Number>& more)
-{
-  list.insert(list.end(), more.begin(), more.end());
-}
-
 /// The share of a level in the progress. Work grows by four per level.
 Progress LevelPart(const Progress& progress, std::size_t level)
 {
@@ -84,8 +78,9 @@ Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>
   const SpectrumOptions& options)
 {
   EigenPairs<double> none;
-  Spectrum spectrum =
-    CollectSpectrum(zeroModes, options.numberOfModes, none, {}, options.tolerance, problem);
+  Eigen::MatrixXd nothing;
+  Spectrum spectrum = CollectSpectrum(
+    zeroModes, options.numberOfModes, none, {}, options.tolerance, problem, nothing);
   spectrum.cutsMultiplet = zeroModes.Count() > options.numberOfModes;
   return spectrum;
 }
@@ -113,7 +108,7 @@ private:
     const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   void Compare(std::size_t level, const SpectralProblem<Real>& problem);
-  EigenvalueErrors Errors(const BlockReport& report) const;
+  Eigen::MatrixXd Errors(const BlockReport& report) const;
   BlockReport FinishList(
     const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress);
 
@@ -256,9 +251,9 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
   return report;
 }
 
-/// The errors of the pairs in the report.
+/// The error and the trust (0 or 1) of each pair in the report.
 template<class Real>
-EigenvalueErrors NestedIteration<Real>::Errors(const BlockReport& report) const
+Eigen::MatrixXd NestedIteration<Real>::Errors(const BlockReport& report) const
 {
   ValuesOnLevels values;
   values.finest = pairs_.values;
@@ -269,7 +264,13 @@ EigenvalueErrors NestedIteration<Real>::Errors(const BlockReport& report) const
     values.next = valuesBelow_.col(0);
     values.afterNext = valuesBelow_.col(1);
   }
-  return EstimateErrors(values, report.residuals);
+  const EigenvalueErrors errors = EstimateErrors(values, report.residuals);
+  Eigen::MatrixXd ofPairs(static_cast<Id>(errors.relative.size()), 2);
+  for (Id k = 0; k < ofPairs.rows(); ++k)
+  {
+    ofPairs.row(k) << errors.relative[k], errors.isTrusted[k] ? 1.0 : 0.0;
+  }
+  return ofPairs;
 }
 
 template<class Real>
@@ -291,14 +292,14 @@ Spectrum NestedIteration<Real>::Run(
   }
   const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));
   const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
-  const EigenvalueErrors errors = this->Errors(report);
-  Spectrum spectrum =
-    CollectSpectrum(zeroModes, zeros_, pairs_, report, options_.tolerance, problem, progress);
-  Append(spectrum.estimatedErrors, errors.relative);
-  Append(spectrum.isErrorTrusted, errors.isTrusted);
-  // The dropped pairs without mass are the last, because their values are the largest.
-  spectrum.estimatedErrors.resize(spectrum.eigenvalues.size());
-  spectrum.isErrorTrusted.resize(spectrum.eigenvalues.size());
+  Eigen::MatrixXd errors = this->Errors(report);
+  Spectrum spectrum = CollectSpectrum(
+    zeroModes, zeros_, pairs_, report, options_.tolerance, problem, errors, progress);
+  for (const auto& error : errors.rowwise())
+  {
+    spectrum.estimatedErrors.push_back(error[0]);
+    spectrum.isErrorTrusted.push_back(error[1] != 0.0);
+  }
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
   spectrum.singlePrecision = cycle_.IsSingle();

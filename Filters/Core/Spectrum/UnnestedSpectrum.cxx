@@ -198,7 +198,8 @@ Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const Spectru
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
     matched = MatchStart(problem, pairs, prolongation, start);
   }
-  Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem);
+  Spectrum spectrum =
+    CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem, matched);
   AddErrorsBeyond(matched, spectrum);
   const auto others = static_cast<Index>(report.residuals.size());
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options.numberOfModes;

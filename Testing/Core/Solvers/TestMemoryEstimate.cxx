@@ -160,7 +160,7 @@ TEST_P(MemoryEstimates, HoldsTheHatFunctions)
 {
   const GridFunctions space = BuildSpace(mesh, depth);
   const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
-  const auto level = std::make_shared<const HatLevel>(BuildHatLevel(mesh, space, true));
+  const auto level = std::make_shared<const HatLevel>(BuildHatLevel(mesh, space, {}, true));
   const HatLevel& hats = *level;
   const std::size_t withHats =
     BuildMultigrid(HatSpace(level, testing::ViewOf(space, system)), 0.01, 1.0, {}).Memory();

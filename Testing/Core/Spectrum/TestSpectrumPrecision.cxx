@@ -3,6 +3,9 @@
 #include "Meshes.h"
 #include "SpectrumChecks.h"
 
+#include "Equations/LevelProblem.h"
+#include "Spectrum/CollectSpectrum.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,6 +56,50 @@ TEST(SpectrumPrecision, NoPairIsMissedInWindows)
   EXPECT_EQ(spectrum.eigenvalues, again.eigenvalues);
   EXPECT_TRUE(spectrum.vectors == again.vectors);
   EXPECT_EQ(spectrum.residuals, again.residuals);
+}
+
+/// Gives pairs in reverse order, with a vector without mass among them. Double precision drops this
+/// vector, single precision puts it last.
+template<class Real>
+void ExpectNumbersOfPairsToFollow()
+{
+  constexpr bool IsSingle = std::is_same_v<Real, float>;
+  const Discretization on = DiscretizeExactly(GeodesicSphere(12), 4);
+  const GridSpace space = ViewOf(on.space, on.system);
+  const Spectrum given = Solve(on, 8, Double);
+  SparseMatrix mass = space.Matrix(0, 1.0, 0.0);
+  const Constants constants = ConstantsOnLevel(space, 0, mass, 1);
+  const auto problem = ProblemOnLevel<Real>(space, 0, constants, std::move(mass), 1);
+  EigenPairs<Real> pairs;
+  pairs.vectors.Reserve(given.vectors.rows(), 8);
+  pairs.vectors.Show(8);
+  Eigen::MatrixXd numbers(8, 2);
+  BlockReport report;
+  for (Id k = 0; k < 8; ++k)
+  {
+    const Id mode = k < 3 ? 7 - k : 8 - k; // 7, 6, 5, the vector without mass, 4, 3, 2, 1
+    const double value = k == 3 ? -1.0 : given.eigenvalues[mode];
+    pairs.vectors.View().col(k) =
+      ((k == 3 ? 0.0 : 1.0) * given.vectors.col(mode)).template cast<Real>();
+    numbers.row(k) << value, 1.0 + value;
+    report.residuals.push_back(1e-3 * value);
+  }
+  const Spectrum spectrum = CollectSpectrum(constants, 1, pairs, report, 1e-6, problem, numbers);
+  ASSERT_EQ(static_cast<Id>(spectrum.eigenvalues.size()), numbers.rows() + 1);
+  ASSERT_EQ(numbers.rows(), IsSingle ? 8 : 7);
+  for (Id k = 0; k < 7; ++k)
+  {
+    EXPECT_NEAR(numbers(k, 0), spectrum.eigenvalues[k + 1], 1e-5 * spectrum.eigenvalues[k + 1]);
+    EXPECT_EQ(numbers(k, 1), 1.0 + numbers(k, 0));
+    EXPECT_EQ(spectrum.residuals[k + 1], 1e-3 * numbers(k, 0));
+  }
+  EXPECT_EQ(numbers.bottomRows(numbers.rows() - 7).sum(), IsSingle ? -1.0 : 0.0);
+}
+
+TEST(SpectrumPrecision, NumbersOfPairsFollowTheEigenvalues)
+{
+  ExpectNumbersOfPairsToFollow<float>();
+  ExpectNumbersOfPairsToFollow<double>();
 }
 
 /// Rounding the vectors disturbs the lowest values most, and more on deeper grids.
