@@ -40,12 +40,7 @@ public:
   {
     PoissonSolution solution = SolvePoisson(
       space_, multigrid_, MultiVector::Zero(load.rows(), load.cols()), load, poisson_, progress);
-    const int iterations = report.iterations + solution.report.iterations;
-    if (report.converged)
-    {
-      report = std::move(solution.report);
-    }
-    report.iterations = iterations;
+    KeepWorse(std::move(solution.report), report);
     return std::move(solution.coefficients);
   }
 
@@ -57,17 +52,45 @@ private:
   PoissonOptions poisson_;
 };
 
-MultiVector DenseTranspose(const SparseMatrix& rows)
+/// Returns `count` rows from the row `first` on, as dense columns.
+MultiVector DenseTranspose(const SparseMatrix& rows, Index first, Index count)
 {
-  MultiVector dense = MultiVector::Zero(rows.columns, rows.rows);
-  for (Index row = 0; row < rows.rows; ++row)
+  MultiVector dense = MultiVector::Zero(rows.columns, count);
+  for (Index row = first; row < first + count; ++row)
   {
     for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
     {
-      dense(rows.column[k], row) = rows.value[k];
+      dense(rows.column[k], row - first) = rows.value[k];
     }
   }
   return dense;
+}
+
+/// Computes L⁺ Cᵀ and the Green's matrix C L⁺ M L⁺ Cᵀ of the points. A solve needs ten vectors for
+/// each of its columns, so few columns are solved at a time.
+/// @param inverse  L⁺
+template<class Inverse>
+MultiVector SolveForPoints(const SparseMatrix& mass, const SparseMatrix& rows,
+  const Inverse& inverse, Eigen::MatrixXd& green, const Job& job)
+{
+  constexpr Index ColumnsAtOnce = 8; // they fill the lanes of a vector instruction
+  MultiVector ofPoints(rows.columns, rows.rows);
+  green.resize(rows.rows, rows.rows);
+  for (Index first = 0; first < rows.rows; first += ColumnsAtOnce)
+  {
+    const Index count = std::min(ColumnsAtOnce, rows.rows - first);
+    const double done = double(first) / rows.rows;
+    const MultiVector part = inverse(DenseTranspose(rows, first, count),
+      job.progress.Part(done, done + double(count) / rows.rows));
+    ofPoints.middleCols(first, count) = part;
+    MultiVector massOf;
+    Multiply(mass, part, massOf, job.threads);
+    // The rows up to the last of these points; the rows below them follow from the symmetry.
+    const Index known = first + count;
+    green.block(0, first, known, count) = ofPoints.leftCols(known).transpose() * massOf;
+    green.block(first, 0, count, first) = green.block(0, first, first, count).transpose();
+  }
+  return ofPoints;
 }
 
 /// Solves a symmetric system [S B; Bᵀ 0] that may be singular, by least squares.
@@ -122,14 +145,11 @@ MultiVector FitBiharmonic(const Components& components, const PointsOfComponents
   const SparseMatrix& mass, const SparseMatrix& rows, const MultiVector& values,
   const Inverse& inverse, const Job& job)
 {
-  const MultiVector ofPoints = inverse(DenseTranspose(rows), job.progress.Part(0.0, 0.8));
-  MultiVector massOf;
-  Multiply(mass, ofPoints, massOf, job.threads);
-
+  Eigen::MatrixXd green;
+  const MultiVector ofPoints = SolveForPoints(mass, rows, inverse, green, job.Part(0.0, 0.8));
   const Eigen::Index m = rows.rows;
   const Eigen::Index constants = points.ones.cols();
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(m + constants, m + constants);
-  const Eigen::MatrixXd green = ofPoints.transpose() * massOf;
   const double size = std::max(green.diagonal().maxCoeff(), std::numeric_limits<double>::min());
   system.topLeftCorner(m, m) = 0.5 / size * (green + green.transpose());
   system.topRightCorner(m, constants) = points.ones;
@@ -138,8 +158,9 @@ MultiVector FitBiharmonic(const Components& components, const PointsOfComponents
   right.topRows(m) = values;
   const Eigen::MatrixXd solved = SolveSymmetric(system, right);
 
-  MultiVector coefficients =
-    inverse(massOf * (solved.topRows(m) / size), job.progress.Part(0.8, 1.0));
+  MultiVector massOf;
+  Multiply(mass, ofPoints * (solved.topRows(m) / size), massOf, job.threads);
+  MultiVector coefficients = inverse(massOf, job.progress.Part(0.8, 1.0));
   MultiVector constant = MultiVector::Constant(
     components.count, values.cols(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < points.component.size(); ++k)
@@ -213,7 +234,7 @@ void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double t
     if (rows.rowBegin[row] < rows.rowBegin[row + 1])
     {
       const auto rest = (reached.row(row) - values.row(row)).cwiseAbs();
-      solution.misfit = std::max(solution.misfit, rest.maxCoeff());
+      solution.misfit = LargerOrUnknown(solution.misfit, rest.maxCoeff<Eigen::PropagateNaN>());
       range = std::max(range, (values.row(row) - values.row(0)).cwiseAbs().maxCoeff());
     }
   }

@@ -99,6 +99,17 @@ void CheckShapes(const SpaceLevels& space, const ConstrainedHierarchy& hierarchy
   }
 }
 
+/// The largest magnitude in each column. NaN where a column has one.
+Eigen::RowVectorXd LargestOfColumns(const MultiVector& rows)
+{
+  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(rows.cols());
+  for (Id column = 0; column < rows.cols() && rows.rows() > 0; ++column)
+  {
+    largest[column] = rows.col(column).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  }
+  return largest;
+}
+
 /// The steps of the augmented Lagrangian, for a problem whose values are about 1.
 class ConstrainedIteration
 {
@@ -204,13 +215,8 @@ private:
 
   Eigen::RowVectorXd LargestOf(const MultiVector& rows) const
   {
-    Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(rows.cols());
-    if (rows.rows() > 0)
-    {
-      largest = rows.cwiseAbs().colwise().maxCoeff();
-    }
-    return distributed_ ? Eigen::RowVectorXd(distributed_->Gather(largest).colwise().maxCoeff())
-                        : largest;
+    const Eigen::RowVectorXd largest = LargestOfColumns(rows);
+    return distributed_ ? LargestOfColumns(distributed_->Gather(largest)) : largest;
   }
 
   double Relative(const Eigen::RowVectorXd& misfits) const
@@ -226,7 +232,7 @@ private:
     {
       const double size = area > 0.0 ? std::sqrt(std::max(0.0, squares[c]) / area) : 0.0;
       const double range = std::max(range_[c], size);
-      relative = std::max(relative, range > 0.0 ? misfits[c] / range : misfits[c]);
+      relative = LargerOrUnknown(relative, range > 0.0 ? misfits[c] / range : misfits[c]);
     }
     return relative;
   }
@@ -441,8 +447,9 @@ ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
                            iteration.x, constant * scale.asDiagonal(), threads),
         scale);
   }
-  solution.misfit =
-    iteration.misfit.size() > 0 ? (iteration.misfit.array() / scale.array()).maxCoeff() : 0.0;
+  solution.misfit = iteration.misfit.size() > 0
+                      ? (iteration.misfit.array() / scale.array()).maxCoeff<Eigen::PropagateNaN>()
+                      : 0.0;
   solution.coefficients = std::move(iteration.x);
   RemoveScales(scale, solution.coefficients, solution.report, distributed);
   for (Id i = 0; i < solution.coefficients.rows(); ++i)

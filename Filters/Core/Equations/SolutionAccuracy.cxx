@@ -48,11 +48,6 @@ Columns Relative(const Columns& error, const Columns& size)
   return (size == 0.0).select(0.0 * error, error / size);
 }
 
-double LargerOrUnknown(double a, double b)
-{
-  return std::isnan(a) || a >= b ? a : b;
-}
-
 /// The fraction of the last correction that is left as an error. A cycle leaves 1 - θ of the
 /// slowest component, with the smallest Ritz value θ. Corrections shrink as fast as the error does.
 /// Both may be too small after few iterations, so the larger counts (Testing/Benchmarks/README.md).
@@ -69,6 +64,11 @@ Columns Reductions(const Columns& step, const Columns& lastStep, const Columns& 
 }
 
 } // namespace
+
+double LargerOrUnknown(double a, double b)
+{
+  return std::isnan(a) || a >= b ? a : b;
+}
 
 void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept)
 {

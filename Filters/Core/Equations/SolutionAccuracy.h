@@ -36,6 +36,9 @@ struct SolutionAccuracy
   static SolutionAccuracy Exact() { return { 0.0, 0.0, 0.0, true }; }
 };
 
+/// The larger one of two errors. It is unknown (NaN) if one of them is unknown.
+double LargerOrUnknown(double a, double b);
+
 /// Combines the errors of several solves: keeps the worst of each kind. An error is unknown if one
 /// of them is unknown.
 void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept);

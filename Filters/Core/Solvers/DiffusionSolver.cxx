@@ -53,8 +53,8 @@ bool AreSamePlaces(const HeldRows& one, const HeldRows& other)
 /// Keeps the worse of two solves with the same places of held values.
 void KeepWorse(const ConstrainedSolution& met, ConstrainedSolution& kept)
 {
-  kept.misfit = std::fmax(kept.misfit, met.misfit);
-  kept.relativeMisfit = std::fmax(kept.relativeMisfit, met.relativeMisfit);
+  kept.misfit = LargerOrUnknown(kept.misfit, met.misfit);
+  kept.relativeMisfit = LargerOrUnknown(kept.relativeMisfit, met.relativeMisfit);
   kept.steps = std::max(kept.steps, met.steps);
   kept.isExact = kept.isExact && met.isExact;
   kept.isHeld = met.isHeld;

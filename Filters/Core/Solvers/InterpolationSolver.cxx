@@ -6,6 +6,7 @@
 #include "Solvers/SurfaceFields.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace gridfem
 {
@@ -57,15 +58,52 @@ void PullCrowded(const SparseMatrix& others, HeldRows& rows)
   }
 }
 
-/// Measures how far the values at points are from the given ones.
-void MeasureMisfit(
-  const PointValues& given, const MultiVector& atPoints, ConstrainedSolution& solution)
+/// The memory for a vector per point.
+MemoryNeed NeedOfPoints(const SparseMatrix& rows)
+{
+  return { sizeof(double) * double(rows.rows) * double(rows.columns),
+    "Biharmonic interpolation of " + std::to_string(rows.rows) + " values with " +
+      std::to_string(rows.columns) + " basis functions",
+    "Choose a smaller Depth." };
+}
+
+/// The given points that no function reaches.
+std::vector<Id> PointsOutOfReach(const PointValues& given, const std::vector<char>& hasFunctions)
+{
+  std::vector<Id> points;
+  std::copy_if(given.points.begin(), given.points.end(), std::back_inserter(points),
+    [&](Id point) { return !hasFunctions[point]; });
+  return points;
+}
+
+/// Empty if functions reach all points.
+std::string WarningOfReach(const std::vector<Id>& outOfReach)
+{
+  if (outOfReach.empty())
+  {
+    return {};
+  }
+  const std::string first = std::to_string(outOfReach.front());
+  return outOfReach.size() == 1
+           ? "The given value at point " + first +
+               " has no effect, because no function of the surface reaches the point."
+           : std::to_string(outOfReach.size()) + " given values, the first of them at point " +
+               first + ", have no effect, because no function of the surface reaches their points.";
+}
+
+/// Measures how far the values at points are from the given ones, where functions reach them.
+void MeasureMisfit(const PointValues& given, const std::vector<char>& hasFunctions,
+  const MultiVector& atPoints, ConstrainedSolution& solution)
 {
   solution.misfit = 0.0;
   for (std::size_t k = 0; k < given.points.size(); ++k)
   {
-    const auto off = (atPoints.row(given.points[k]) - given.values.row(static_cast<Id>(k))).array();
-    solution.misfit = std::max(solution.misfit, off.isNaN().select(0.0, off.abs()).maxCoeff());
+    if (hasFunctions[given.points[k]])
+    {
+      const auto off = atPoints.row(given.points[k]) - given.values.row(static_cast<Id>(k));
+      solution.misfit =
+        LargerOrUnknown(solution.misfit, off.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    }
   }
   const double range =
     (given.values.colwise().maxCoeff() - given.values.colwise().minCoeff()).maxCoeff();
@@ -102,6 +140,10 @@ ConstrainedSolution InterpolationSolver::SolveOnce(const Surface& surface, const
   own.multigrid = options.equation.multigrid;
   own.multigrid.threads = surface.Threads();
   own.solve = options.equation.solve;
+  if (own.smoothness == Smoothness::Biharmonic && held.rows.rows <= own.mostAtOnce)
+  {
+    surface.Require(NeedOfPoints(held.rows));
+  }
   return InterpolateHarmonically(*surface.WholeSpace(), held.rows, held.values, own, progress);
 }
 
@@ -141,7 +183,7 @@ ConstrainedSolution InterpolationSolver::InterpolateBetween(
   }
   correction.Apply(
     space->UnitLength(), result_.atPoints, { surface.Threads(), progress.Part(0.9, 1.0) });
-  MeasureMisfit(given_, result_.atPoints, solution);
+  MeasureMisfit(given_, space->PointsWithFunctions(), result_.atPoints, solution);
   return solution;
 }
 
@@ -151,6 +193,9 @@ void InterpolationSolver::Take(
   surface.CompleteAtPoints(result_.atPoints);
   result_.atPoints.rowwise() += constants_;
   result_.warnings = WarningsOfValues(solution, options.equation.solve.tolerance);
+  result_.warnings.push_back(
+    WarningOfReach(PointsOutOfReach(given_, surface.WholeSpace()->PointsWithFunctions())));
+  result_.warnings = NotEmpty(std::move(result_.warnings));
   result_.report = std::move(solution.report);
   result_.accuracy = solution.accuracy;
   result_.misfit = solution.misfit;

@@ -39,7 +39,7 @@ public:
     MultiVector atPoints; // NaN on components without a value, and where no function reaches
     SolveReport report;
     SolutionAccuracy accuracy; // unknown for biharmonic functions of many points
-    double misfit = 0.0;       // the largest difference from a given value
+    double misfit = 0.0;       // the largest difference from a given value that functions reach
     std::vector<std::string> warnings;
   };
 

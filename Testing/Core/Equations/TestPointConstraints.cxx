@@ -271,6 +271,23 @@ TEST_P(PointConstraints, OfAnySizeAreScaledAndDoNotDependOnThreads)
   }
 }
 
+TEST_P(PointConstraints, OfNaNAreNotMet)
+{
+  const TriangleMesh mesh = GeodesicSphere(6);
+  const auto space = Build(mesh, this->GetParam(), 4);
+  const std::vector<Id> points = Every(9, static_cast<Id>(mesh.points.size()));
+  for (const Id row : { Id(0), Id(2) })
+  {
+    MultiVector values = WavesAt(mesh, points);
+    values(row, 1) = std::nan("");
+    const ConstrainedSolution solution = Solve(*space, 0.0, {}, points, values);
+    EXPECT_FALSE(solution.report.converged);
+    EXPECT_FALSE(solution.isExact);
+    EXPECT_TRUE(std::isnan(solution.misfit));
+    EXPECT_TRUE(std::isnan(solution.relativeMisfit));
+  }
+}
+
 TEST_P(PointConstraints, AreRefusedWhereTheyDoNotFitAndStopWhenAsked)
 {
   const TriangleMesh mesh = GeodesicSphere(6);

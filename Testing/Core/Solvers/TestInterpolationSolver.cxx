@@ -114,6 +114,42 @@ TEST(InterpolationSolver, StepwiseUseGivesTheBitsOfOneShot)
   EXPECT_EQ(stages.Runs(SpaceStage), 1);
 }
 
+/// A point that no triangle uses cannot hold a value. The value changes nothing, and a warning
+/// names the point.
+TEST(InterpolationSolver, NamesGivenPointsThatNoFunctionReaches)
+{
+  TriangleMesh withPoint = GeodesicSphere(8);
+  const auto alone = static_cast<Id>(withPoint.points.size());
+  withPoint.points.emplace_back(0.0, 0.0, 0.5);
+  const auto mesh = std::make_shared<const TriangleMesh>(withPoint);
+  const auto values = [](const std::vector<Id>& points, const std::vector<double>& numbers)
+  {
+    InterpolationSolver::Input input;
+    input.values.find = [=]
+    {
+      const auto rows = static_cast<Id>(numbers.size());
+      return PointValues{ points, Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows) };
+    };
+    return input;
+  };
+  for (const Smoothness smoothness : { Smoothness::Harmonic, Smoothness::Biharmonic })
+  {
+    InterpolationSolver::Options options;
+    options.smoothness = smoothness;
+    options.equation.solve.tolerance = 1e-10;
+    const auto solve = [&](const InterpolationSolver::Input& input)
+    { return InterpolationSolver::Solve(mesh, input, options, AtDepth(4)); };
+    const auto without = solve(values({ 3, 40, 90 }, { 1.0, 2.0, 1.5 }));
+    const auto with = solve(values({ 3, 40, 90, alone }, { 1.0, 2.0, 1.5, 1.8 }));
+    EXPECT_TRUE(without.warnings.empty());
+    ASSERT_EQ(with.warnings.size(), 1u);
+    EXPECT_NE(with.warnings[0].find("at point " + std::to_string(alone) + " "), std::string::npos);
+    EXPECT_LT(with.misfit, 1e-3);
+    const auto difference = (with.atPoints - without.atPoints).topRows(alone).cwiseAbs();
+    EXPECT_LT(difference.maxCoeff<Eigen::PropagateNaN>(), 1e-5);
+  }
+}
+
 /// A second component without a value is NaN, and a warning says so.
 TEST(InterpolationSolver, ComponentsWithoutAValueAreUnknown)
 {
