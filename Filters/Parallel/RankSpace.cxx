@@ -167,7 +167,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       }
       UnitePointPatches(clip.mesh->points, all.Finest(), all.pointPatch);
     });
-  std::vector<PatchLevel> shared = this->Divide(all, links, *partition_);
+  std::vector<PatchLevel> shared = this->Divide(all, links, *partition_, functions.threads);
   ranks_.Together(
     [&]
     {
@@ -183,7 +183,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       whole->support = support;
       whole->clipped.grid = own_->Functions().GetGrid();
       whole->levels = std::move(shared);
-      FindComponents(*whole);
+      FindComponents(*whole, functions.threads);
       sharedFunctions_ = std::move(whole);
     });
   this->AddElements(functions.threads);
@@ -247,7 +247,7 @@ RankSpace RankSpace::WithOwn(GridSpace own, int threads) const
 /// numberings_.
 /// @return the shared levels
 std::vector<PatchLevel> RankSpace::Divide(
-  GridFunctions& all, const Array<Link>& links, const BlockPartition& partition)
+  GridFunctions& all, const Array<Link>& links, const BlockPartition& partition, int threads)
 {
   const std::size_t distributed = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;
@@ -276,7 +276,7 @@ std::vector<PatchLevel> RankSpace::Divide(
     ranks_.Together([&] { SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]); });
   }
   std::vector<PatchLevel> shared =
-    this->Share(all.levels[distributed], links, partition, all.support);
+    this->Share(all.levels[distributed], links, partition, all.support, threads);
   const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
   const auto first = shared.front().dof.begin() + patches.before;
   std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());
@@ -288,7 +288,7 @@ std::vector<PatchLevel> RankSpace::Divide(
 
 /// Collective. The level of the blocks with the patches of all ranks, and all coarser levels.
 std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
-  const BlockPartition& partition, FunctionSupport support) const
+  const BlockPartition& partition, FunctionSupport support, int threads) const
 {
   const PatchRange own = OwnPatches(level, partition, ranks_.Rank());
   const Communicator::Share share = ranks_.ShareOf(own.last - own.first);
@@ -327,10 +327,10 @@ std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Li
       }
       Array<Index> itself(whole.cell.size());
       std::iota(itself.begin(), itself.end(), Index{ 0 });
-      patches.links = LinksOfGroups(all, itself); // sorted, each once
+      patches.links = LinksOfGroups(all, itself, threads); // sorted, each once
       patches.cell = std::move(whole.cell);
-      PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
-      levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+      PatchLevel finest = BuildFinestLevel(level.depth, patches, support, threads);
+      levels = BuildLevels(std::move(finest), std::move(patches.links), support, threads);
     });
   return levels;
 }

@@ -65,9 +65,9 @@ public:
 
 private:
   std::vector<PatchLevel> Divide(
-    GridFunctions& all, const Array<Link>& links, const BlockPartition& partition);
+    GridFunctions& all, const Array<Link>& links, const BlockPartition& partition, int threads);
   std::vector<PatchLevel> Share(const PatchLevel& level, const Array<Link>& links,
-    const BlockPartition& partition, FunctionSupport support) const;
+    const BlockPartition& partition, FunctionSupport support, int threads) const;
   void AddElements(int threads);
 
   Communicator ranks_;

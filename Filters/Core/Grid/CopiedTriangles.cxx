@@ -4,6 +4,9 @@
 #include "Base/Grouping.h"
 #include "Grid/CornerClasses.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace gridfem
 {
 
@@ -28,25 +31,31 @@ std::vector<char> CopiedTriangles(
       }
     });
   const Groups ofLowest = GroupItems(lowest, static_cast<Id>(mesh.points.size()), threads);
-  const auto isCopy = [&](Index first, Index own)
-  {
-    const std::array<Index, 3> corners = sorted(ofLowest.item[own]);
-    return !IsDegenerate(corners) &&
-           std::any_of(ofLowest.item.begin() + first, ofLowest.item.begin() + own,
-             [&](Index other) { return sorted(other) == corners; });
-  };
   std::vector<char> copies(mesh.triangles.size(), 0);
   const Id found = ParallelSum(static_cast<Id>(mesh.points.size()), threads, Id{ 0 },
     [&](Id begin, Id end)
     {
       Id count = 0;
+      std::vector<std::pair<std::array<Index, 3>, Index>> around; // corners, triangle
       for (Id point = begin; point < end; ++point)
       {
+        around.clear();
         for (Index k = ofLowest.begin[point]; k < ofLowest.begin[point + 1]; ++k)
         {
-          const bool isOne = isCopy(ofLowest.begin[point], k);
-          copies[ofLowest.item[k]] = isOne ? 1 : 0;
-          count += isOne ? 1 : 0;
+          const std::array<Index, 3> corners = sorted(ofLowest.item[k]);
+          if (!IsDegenerate(corners))
+          {
+            around.emplace_back(corners, ofLowest.item[k]);
+          }
+        }
+        std::sort(around.begin(), around.end()); // the first of equals is the first triangle
+        for (std::size_t k = 1; k < around.size(); ++k)
+        {
+          if (around[k].first == around[k - 1].first)
+          {
+            copies[around[k].second] = 1;
+            ++count;
+          }
         }
       }
       return count;

@@ -6,6 +6,7 @@
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceEdges.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -36,24 +37,26 @@ bool FaceAlike(const TriangleMesh& mesh, const CornerClasses& classes, int threa
     const Index* const corners = &from[side - side % 3];
     return IsDegenerate({ corners[0], corners[1], corners[2] });
   };
-  // A side counts as one too many if an earlier one runs to the same point.
   return ParallelSum(static_cast<Id>(mesh.points.size()), threads, Id{ 0 },
            [&](Id begin, Id end)
            {
-             Id tooMany = 0;
+             Id pointsWithTwo = 0; // with two sides to the same other point
+             std::vector<Index> ends;
              for (Id point = begin; point < end; ++point)
              {
-               const auto first = sides.item.begin() + sides.begin[point];
-               const auto last = sides.item.begin() + sides.begin[point + 1];
-               for (auto own = first; own != last; ++own)
+               ends.clear();
+               for (Index k = sides.begin[point]; k < sides.begin[point + 1]; ++k)
                {
-                 tooMany += !isDegenerate(*own) &&
-                            std::any_of(first, own,
-                              [&](Index other)
-                              { return !isDegenerate(other) && endOf(other) == endOf(*own); });
+                 if (!isDegenerate(sides.item[k]))
+                 {
+                   ends.push_back(endOf(sides.item[k]));
+                 }
                }
+               std::sort(ends.begin(), ends.end());
+               const bool hasTwo = std::adjacent_find(ends.begin(), ends.end()) != ends.end();
+               pointsWithTwo += hasTwo ? 1 : 0;
              }
-             return tooMany;
+             return pointsWithTwo;
            }) == 0;
 }
 
@@ -61,14 +64,11 @@ bool FaceAlike(const TriangleMesh& mesh, const CornerClasses& classes, int threa
 TriangleMesh WithoutCopies(const TriangleMesh& mesh, const Array<Index>& pointClass, int threads)
 {
   const std::vector<char> isCopy = CopiedTriangles(mesh, pointClass, threads);
-  TriangleMesh kept;
-  kept.points = mesh.points;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  TriangleMesh kept = mesh;
+  if (!isCopy.empty())
   {
-    if (isCopy.empty() || !isCopy[t])
-    {
-      kept.triangles.push_back(mesh.triangles[t]);
-    }
+    std::vector<Id> numbers(mesh.triangles.size());
+    KeepTriangles(kept, numbers, [&](std::size_t triangle) { return !isCopy[triangle]; });
   }
   return kept;
 }

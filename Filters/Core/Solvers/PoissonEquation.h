@@ -27,7 +27,7 @@ struct PoissonRequest
   /// Not on a shared surface.
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
-  /// Starts from the last solution, unless the functions have changed. Columns that the last
+  /// Starts from the last solution if it has a row for each function. Columns that the last
   /// solution lacks start at zero.
   bool startsFromLast = false;
 };

@@ -13,10 +13,10 @@ namespace
 {
 
 /// Returns the number of functions of the largest connected component.
-Index LargestComponent(const PatchLevel& level)
+Index LargestComponent(const PatchLevel& level, int threads)
 {
   std::vector<Index> size;
-  for (const Index component : FunctionComponents(level))
+  for (const Index component : FunctionComponents(level, threads))
   {
     size.resize(std::max(size.size(), static_cast<std::size_t>(component) + 1), 0);
     ++size[component];
@@ -24,11 +24,11 @@ Index LargestComponent(const PatchLevel& level)
   return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
 }
 
-bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSize)
+bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSize, int threads)
 {
   return level + 1 == space.levels.size() ||
          space.levels[level].numberOfFunctions <= coarsestSize ||
-         LargestComponent(space.levels[level]) <= coarsestSize;
+         LargestComponent(space.levels[level], threads) <= coarsestSize;
 }
 
 using SumsOfRows = std::array<double, FunctionsPerPatch>;
@@ -119,7 +119,7 @@ LevelOperators OperatorsOfElements(
     system.places.push_back(PlacesOfFunctions(level, job.threads));
     system.pattern.push_back(BuildPattern(level, system.places.back(), job.threads));
     job.Check(0.8 * double(l + 1) / double(space.levels.size()));
-    if (IsCoarsest(space, l, coarsestSize))
+    if (IsCoarsest(space, l, coarsestSize, job.threads))
     {
       break;
     }

@@ -15,9 +15,9 @@ Index NumberOfComponents(const std::vector<Index>& component)
   return component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;
 }
 
-Index LargestComponentOf(const SmoothLevel& level)
+Index LargestComponentOf(const SmoothLevel& level, int threads)
 {
-  const std::vector<Index> component = FunctionComponents(level);
+  const std::vector<Index> component = FunctionComponents(level, threads);
   std::vector<Index> size(NumberOfComponents(component), 0);
   for (const Index c : component)
   {
@@ -27,11 +27,13 @@ Index LargestComponentOf(const SmoothLevel& level)
 }
 
 /// Removes the levels below the first one that is small enough.
-void KeepLevels(Index coarsestSize, std::vector<SmoothLevel>& levels)
+void KeepLevels(Index coarsestSize, int threads, std::vector<SmoothLevel>& levels)
 {
   const auto coarsest = std::find_if(levels.begin(), levels.end() - 1,
-    [&](const SmoothLevel& level) {
-      return level.numberOfFunctions <= coarsestSize || LargestComponentOf(level) <= coarsestSize;
+    [&](const SmoothLevel& level)
+    {
+      return level.numberOfFunctions <= coarsestSize ||
+             LargestComponentOf(level, threads) <= coarsestSize;
     });
   levels.erase(coarsest + 1, levels.end());
 }
@@ -57,7 +59,7 @@ SmoothOperators BuildSmoothOperators(const GridFunctions& grid, int quadratureDe
   operators.quadratureDegree = std::max(quadratureDegree, SmoothQuadratureDegree);
   operators.normalStabilization = std::max(normalStabilization, SmoothStabilization);
   operators.levels = BuildSmoothLevels(grid, job.Part(0.0, 0.1));
-  KeepLevels(coarsestSize, operators.levels);
+  KeepLevels(coarsestSize, job.threads, operators.levels);
   const std::vector<SmoothLevel>& levels = operators.levels;
   for (std::size_t l = 0; l < levels.size(); ++l)
   {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <random>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -39,5 +41,42 @@ TEST(DropCopies, KeepsTheFirstOfEachAndCountsTheOthers)
     EXPECT_EQ(source, Numbers(mesh));
     EXPECT_EQ(DropCopies(doubled, source), 0);
     EXPECT_EQ(doubled.triangles, mesh.triangles);
+  }
+}
+
+/// A point with very many triangles, in any order and turned in any way.
+TEST(DropCopies, FindsThemAroundAPointOfManyTriangles)
+{
+  constexpr Id Around = 100000;
+  TriangleMesh fan;
+  fan.points.resize(Around + 1, Vec3::Zero());
+  std::mt19937 random(1);
+  for (Id k = 1; k <= Around; ++k)
+  {
+    std::array<Id, 3> triangle = { 0, k, k % Around + 1 };
+    for (Id copy = 0; copy < (k % 5 == 0 ? 3 : 1); ++copy)
+    {
+      std::shuffle(triangle.begin(), triangle.end(), random);
+      fan.triangles.push_back(triangle);
+    }
+  }
+  std::shuffle(fan.triangles.begin(), fan.triangles.end(), random);
+  TriangleMesh kept = fan;
+  std::vector<Id> source = Numbers(fan);
+  EXPECT_EQ(DropCopies(kept, source), 2 * (Around / 5));
+  EXPECT_TRUE(std::is_sorted(source.begin(), source.end()));
+  std::vector<char> isKept(fan.triangles.size(), 0);
+  for (const Id triangle : source)
+  {
+    isKept[triangle] = 1;
+  }
+  std::vector<char> isSeen(Around + 1, 0); // by the side opposite to point 0
+  for (std::size_t t = 0; t < fan.triangles.size(); ++t)
+  {
+    std::array<Id, 3> corners = fan.triangles[t];
+    std::sort(corners.begin(), corners.end());
+    char& seen = isSeen[corners[2] - corners[1] > 1 ? Around : corners[1]];
+    ASSERT_EQ(isKept[t], seen ? 0 : 1) << t;
+    seen = 1;
   }
 }
