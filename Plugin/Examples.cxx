@@ -3,11 +3,16 @@
 #include "vtkPVPlugin.h"
 #include "vtkPVPluginTracker.h"
 
+#include <pqApplicationCore.h>
+#include <pqDeleteReaction.h>
 #include <pqLoadStateReaction.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
 
 #include <QDir>
 #include <QFile>
 #include <QMenu>
+#include <QMessageBox>
 #include <QRegularExpression>
 #include <QWidget>
 
@@ -44,6 +49,30 @@ QString TitleOf(const QString& path)
   return title.isEmpty() ? title : title.replace(0, 1, title[0].toUpper());
 }
 
+/// Asks before an example takes the place of the pipeline.
+bool MayOpen(QWidget* window)
+{
+  const pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  if (model->findItems<pqPipelineSource*>().isEmpty())
+  {
+    return true;
+  }
+  QMessageBox question(QMessageBox::Question, "Surface FEM Examples",
+    "Open the example in a new session? The current pipeline is closed.",
+    QMessageBox::Yes | QMessageBox::No, window);
+  question.setObjectName("OpenExample");
+  return question.exec() == QMessageBox::Yes;
+}
+
+void Open(const QString& path, QWidget* window)
+{
+  if (MayOpen(window))
+  {
+    pqDeleteReaction::deleteAll();
+    pqLoadStateReaction::loadState(path);
+  }
+}
+
 } // namespace
 
 void gridfem::AddExamples(QWidget* window)
@@ -71,7 +100,7 @@ void gridfem::AddExamples(QWidget* window)
       const auto place = help->actions().indexOf(after) + 1;
       help->insertMenu(after ? help->actions().value(place) : nullptr, examples);
     }
-    QAction* example = examples->addAction(title, [path] { pqLoadStateReaction::loadState(path); });
+    QAction* example = examples->addAction(title, [path, window] { Open(path, window); });
     example->setObjectName(QFileInfo(name).baseName());
   }
 }

@@ -8,6 +8,7 @@ namespace gridfem
 {
 
 /// Adds a menu to the Help menu of the window. Its entries load the examples.
+/// They ask first if there is a pipeline, which they close.
 void AddExamples(QWidget* window);
 
 } // namespace gridfem

@@ -1,6 +1,6 @@
-// Gives ParaView's window the pages of the plugin's help where ParaView's build rules do not:
-// ParaView 5.12 and 5.13 with Qt 6 (ParaView issue 19742). The list of plugins then shows the pages
-// as a plugin of their own.
+// Gives ParaView's window the pages of the plugin's help. ParaView's own build rules make pages of
+// the panels only, and none with Qt 6 in ParaView 5.12 and 5.13 (ParaView issue 19742). The list of
+// plugins shows the pages as a plugin of their own.
 #ifndef GridFEM_HelpPages_h
 #define GridFEM_HelpPages_h
 

@@ -86,7 +86,7 @@ public:
   ///@{
   /**
    * How long heat spreads, in the squared unit of length of ParameterUnits. Waves of length l fade
-   * by exp(-(2 pi / l)^2 t): to 2 % if l is 3.1 times the square root of the time t. Above 0,
+   * by exp(-(2 pi / l)^2 t): to 2 % if l is 3.2 times the square root of the time t. Above 0,
    * default 0.001.
    */
   vtkSetMacro(DiffusionTime, double);

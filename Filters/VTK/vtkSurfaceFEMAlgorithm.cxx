@@ -178,7 +178,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     return 1;
   }
   gridfem::FilterOptions& options = this->State->options;
-  options.space.depth = this->Depth;
+  options.space.depth = this->Depth == 1 ? 2 : this->Depth; // a slider passes 1 on its way from 0
   options.space.connectivityAware = this->ConnectivityAware;
   options.space.weldCoincidentPoints = this->WeldCoincidentPoints;
   options.space.threads = this->NumberOfThreads;

@@ -121,7 +121,7 @@ public:
   /**
    * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7. With 0, the
    * filter chooses the finest grid, from 6 on, that has no more functions than the surface has
-   * points and that fits into memory. The filter refuses 1 when it runs. The field array
+   * points and that fits into memory. 1 counts as 2. The field array
    * `UsedDepth` gives the depth.
    */
   vtkSetInRangeMacro(Depth, int, 0, 14);

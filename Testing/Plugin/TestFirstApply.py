@@ -296,6 +296,30 @@ class ColorMaps(unittest.TestCase):
         last = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, DetailScale=1.05)
         self.assert_fits(self.show(last), last, "NormalDisplacement")
 
+    def test_the_range_of_an_input_that_stays_visible_counts(self):
+        """Apply hides the input in the active view. Another view still shows it."""
+        large = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, DetailScale=5)
+        self.show(large)
+        other = simple.CreateRenderView()
+        simple.Show(large, other)
+        simple.SetActiveView(self.view)
+        small = simple.SurfaceDetail(Input=large, Depth=DEPTH, DetailScale=1.1)
+        self.assert_fits(self.show(small), large, "NormalDisplacement")
+        for view in other, self.view:
+            simple.Hide(large, view)
+        small.DetailScale = 1.2
+        self.assert_fits(self.show(small), small, "NormalDisplacement")
+
+    def test_results_with_a_prefix_have_the_colors(self):
+        for prefix in ("first_", "a b."):
+            with self.subTest(prefix=prefix):
+                detail = simple.SurfaceDetail(Input=self.surface, Depth=DEPTH, ResultPrefix=prefix)
+                for scale in (5, 1.1):
+                    detail.DetailScale = scale
+                    self.assert_fits(self.show(detail), detail, prefix + "NormalDisplacement")
+                distance = simple.GeodesicDistance(Input=self.surface, Depth=DEPTH, ResultPrefix=prefix)
+                self.assertEqual(len(self.show(distance).RGBPoints), 4 * 40)  # twenty stripes
+
     def test_magnitudes_run_from_dark_to_light(self):
         values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
         gradient = simple.SurfaceGradient(Input=values, Array=["POINTS", "f"], Depth=DEPTH)

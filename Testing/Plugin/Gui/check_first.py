@@ -140,13 +140,6 @@ class FirstApply(unittest.TestCase):
         zeros = [k for k in range(len(farness)) if distance.GetTuple1(k) == 0]
         self.assertEqual(zeros, [farness.index(min(farness))])
 
-    def test_an_example_of_the_help_menu_is_loaded(self):
-        plugin.clear()
-        simple.LoadState(f"{FOLDER}/example.pvsm")
-        paths = [proxy for proxy in simple.GetSources().values() if proxy.SMProxy.GetXMLName() == "GeodesicPaths"]
-        self.assertGreater(len(paths), 0)
-        self.assertGreater(plugin.data(paths[0], 1).GetNumberOfLines(), 0)
-
 
 if __name__ == "__main__":
     plugin.load()

@@ -35,9 +35,17 @@ class States(unittest.TestCase):
     def test_a_script_gets_the_same_in_the_window_as_without_it(self):
         self.assertEqual(notes("window"), notes("here"))
         self.assertEqual(notes("window")["opacity"], 1.0)
+        self.assertEqual(notes("window")["blocks"], ["FIELD", "vtkBlockColors"])
 
     def test_modes_of_a_state_have_their_own_range(self):
         self.assertEqual(self.assert_own_range("played"), 3.0)
+
+    def test_another_array_colors_the_picture_of_a_state_that_has_lost_its_array(self):
+        plugin.clear()
+        simple.LoadState(f"{FOLDER}/all.pvsm")
+        shown = [part for view in simple.GetViews("RenderView") for part in view.Representations
+                 if hasattr(part, "ColorArrayName") and part.Visibility]
+        self.assertEqual([part.ColorArrayName[1] for part in shown], ["Mode001"])
 
     def test_a_chart_of_a_state_closes_with_its_filter(self):
         for state, views in (("played", 2), ("deleted", 1)):
@@ -47,7 +55,22 @@ class States(unittest.TestCase):
             self.assertEqual(len(simple.GetViews()), views)
 
     def test_modes_have_their_own_range_after_the_filter_was_brought_back(self):
-        self.assertEqual(self.assert_own_range("undone"), 1.0)
+        self.assert_own_range("undone")
+
+    def test_a_basis_for_several_filters_has_their_depth(self):
+        plugin.clear()
+        simple.LoadState(f"{FOLDER}/basis.pvsm")
+        self.assertEqual(simple.FindSource("ConnectivityAwareBasis1").Depth, 7)
+
+    def test_an_example_takes_the_place_of_the_pipeline_only_if_the_user_agrees(self):
+        for state, is_kept in (("kept", True), ("example", False)):
+            plugin.clear()
+            simple.LoadState(f"{FOLDER}/{state}.pvsm")
+            self.assertEqual(simple.FindSource("spectrum") is not None, is_kept)
+            paths = [proxy for proxy in simple.GetSources().values()
+                     if proxy.SMProxy.GetXMLName() == "GeodesicPaths"]
+            self.assertEqual(bool(paths), not is_kept)
+        self.assertGreater(plugin.data(paths[0], 1).GetNumberOfLines(), 0)
 
 
 if __name__ == "__main__":

@@ -65,8 +65,12 @@ class Script:
         self.event("pqClientMainWindow/QuickLaunchDialog", "keyEvent", "6:16777220:0:&#13;:0:1")
 
     def example(self, name):
-        """Opens an example of the Help menu."""
+        """Chooses an example of the Help menu."""
         self.event(f"{MENUS}/menu_Help/SurfaceFEMExamples", "activate", name)
+
+    def answer(self, dialog, button):
+        """Presses a button of a dialog, by its number."""
+        self.event(f"pqClientMainWindow/{dialog}/qt_msgbox_buttonbox/1QPushButton{button}", "activate")
 
     def enter(self, prop, value):
         """Gives a property a value, in the widget that panels have for its kind."""

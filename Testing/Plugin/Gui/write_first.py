@@ -14,7 +14,7 @@ import plugin
 from events import FIRST, NEXT, PLACE, PROPERTIES, TIME, Script
 
 DEPTH = "4"
-CHOSEN_DEPTH = ("ClipToOctree", "ConnectivityAwareBasis")  # the window chooses it
+CHOSEN_DEPTH = ("ClipToOctree",)  # the window chooses it
 PAIRS = (("one", ("ScreenedPoisson", "HeatDiffusion", "SurfaceGradient")),
          ("colors", ("ScreenedPoisson", "HeatDiffusion", "StitchColors")))
 
@@ -114,6 +114,4 @@ for file, filters in PAIRS:
         script.delete()
 choose_position()
 choose_sources()  # ParaView selects nothing after it
-script.example("path")
-script.save("example")
 script.write("first")

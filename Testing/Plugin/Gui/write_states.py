@@ -9,7 +9,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 from paraview import simple
 
 import plugin
-from events import NEXT, TIME, Script
+from events import NEXT, PROPERTIES, TIME, Script
+
+YES, NO = 0, 1  # buttons of a question
 
 SCRIPT = '''
 import json
@@ -29,6 +31,15 @@ for name in {names}:
 paths = simple.GeodesicPaths(Input=surface)
 paths.UpdatePipeline()
 noted["opacity"] = simple.Show(paths, view).Opacity
+blocks = simple.GroupDatasets(Input=[surface, simple.Transform(Input=surface)])
+heat = simple.HeatDiffusion(Input=blocks, Array=["POINTS", "height"], Depth=4)
+shown = simple.Show(heat, view)
+simple.SetActiveSource(sphere)  # the window asks about the colors of blocks if they are active
+simple.ColorBy(shown, ("FIELD", "vtkBlockColors"))
+simple.Render(view)
+heat.DiffusionTime = 0.002
+simple.Render(view)
+noted["blocks"] = list(shown.ColorArrayName)
 with open("{folder}/" + WHERE + ".json", "w") as file:
     json.dump(noted, file)
 for proxies in simple.GetViews(), simple.GetLayouts().values(), simple.GetSources().values():
@@ -74,9 +85,21 @@ script.event(f"{TIME}{NEXT}", "activate")
 script.event(f"{TIME}{NEXT}", "activate")
 script.save("played")
 script.select(0, 0, 0)  # on the surface, on the sphere
+script.event(f"{PROPERTIES}/AllModes/CheckBox", "set_boolean", "true")
+script.apply()
+script.save("all")
+script.event(f"{PROPERTIES}/AllModes/CheckBox", "set_boolean", "false")
+script.apply()
 script.delete()
 script.save("deleted")
 script.edit("Undo")
 script.event(f"{TIME}{NEXT}", "activate")
 script.save("undone")
+script.select(0, 0)  # the surface
+script.make("ConnectivityAwareBasis")
+script.save("basis")
+for button, state in ((NO, "kept"), (YES, "example")):
+    script.example("path")
+    script.answer("OpenExample", button)
+    script.save(state)
 script.write("states")
