@@ -162,10 +162,11 @@ public:
   ///@{
   /**
    * The wanted error of the function space, relative to the solution without its mean. Above 0, the
-   * filter chooses a depth at which the estimated error is at most this value. The field array
-   * `UsedDepth` gives the depth. Not used with a given basis. The error of HatFunctions is the
-   * error of the mesh. If the error stays too large, or the next depth does not fit into memory,
-   * the filter warns and `Converged` is 0. 0..0.5, default 0: Depth is used.
+   * filter chooses a depth at which the estimated error is at most this value. The error has to be
+   * trusted, or small enough at two depths, one after the other. The field array `UsedDepth` gives
+   * the depth. Not used with a given basis. The error of HatFunctions is the error of the mesh. If
+   * the error stays too large, or the next depth does not fit into memory, the filter warns and
+   * `Converged` is 0. 0..0.5, default 0: Depth is used.
    */
   vtkSetInRangeMacro(WantedError, double, 0.0, 0.5);
   vtkGetMacro(WantedError, double);

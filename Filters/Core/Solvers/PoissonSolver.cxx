@@ -242,7 +242,7 @@ const PoissonSolver::Result& PoissonSolver::Update(
     job.Check(0.5);
     this->SolvePrepared(surface, input, options, job.progress.Part(0.5, 1.0));
   }
-  this->Report(surface, input, options);
+  this->Report(surface, input, options, choosesDepth);
   return result_;
 }
 
@@ -297,7 +297,9 @@ void PoissonSolver::SolvePrepared(
   result_.accuracy = equation_.Accuracy();
 }
 
-void PoissonSolver::Report(const Surface& surface, const Input& input, const Options& options)
+/// @param isSearched  whether the depth was chosen for the wanted error
+void PoissonSolver::Report(
+  const Surface& surface, const Input& input, const Options& options, bool isSearched)
 {
   const bool isConstrained = IsConstrained(input, options);
   const double tolerance = EquationOf(input, options).solve.tolerance;
@@ -309,7 +311,8 @@ void PoissonSolver::Report(const Surface& surface, const Input& input, const Opt
   result_.warnings = { isConstrained ? constrained_.Warning(tolerance)
                                      : WarningOf(result_.report, result_.accuracy, tolerance) };
   const double error = result_.accuracy.discretization;
-  result_.isAccurate = !(options.wantedError > 0.0) || error <= options.wantedError;
+  result_.isAccurate = !(options.wantedError > 0.0) ||
+                       (isSearched ? search_.IsReached() : error <= options.wantedError);
   if (!result_.isAccurate)
   {
     result_.warnings.push_back(

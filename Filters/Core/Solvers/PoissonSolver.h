@@ -58,7 +58,7 @@ public:
     MultiVector atPoints; // of the solution; NaN where nothing is known
     SolveReport report;
     SolutionAccuracy accuracy;
-    bool isAccurate = true; // wantedError is reached, where there is one
+    bool isAccurate = true; // wantedError is reached; after a search see DepthSearch::IsReached
     bool holdsValues = false;
     double misfit = 0.0; // the largest difference from a held value
     std::vector<std::string> warnings;
@@ -77,7 +77,7 @@ private:
     Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void SolvePrepared(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
-  void Report(const Surface& surface, const Input& input, const Options& options);
+  void Report(const Surface& surface, const Input& input, const Options& options, bool isSearched);
 
   DepthSearch search_;
   StageKey searched_; // all that the depth found depends on

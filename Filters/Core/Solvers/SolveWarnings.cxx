@@ -44,6 +44,12 @@ const char* ReasonOfError(FunctionKind kind)
              "Space to Grid.";
 }
 
+/// Why an estimated error that is small enough is not enough.
+const char* Doubt(double estimated, double wanted)
+{
+  return estimated <= wanted ? ", but coarser grids do not confirm it" : "";
+}
+
 } // namespace
 
 const char* ReasonOf(const SolveReport& report)
@@ -123,7 +129,8 @@ std::string WarningOfWantedError(double wanted, double estimated, FunctionKind k
 {
   std::ostringstream text;
   text << "The Wanted Error of " << wanted << " is not reached: the estimated error is "
-       << estimated << ". " << ReasonOfError(kind) << " The result is kept.";
+       << estimated << Doubt(estimated, wanted) << ". " << ReasonOfError(kind)
+       << " The result is kept.";
   return text.str();
 }
 
@@ -131,8 +138,7 @@ std::string WarningOfAccuracy(double wanted, double estimated, FunctionKind kind
 {
   std::ostringstream text;
   text << "The wanted Accuracy of " << wanted << " is not reached: at Depth " << depth
-       << " the estimated error is up to " << estimated
-       << (estimated <= wanted ? ", but coarser grids do not confirm it" : "") << ". "
+       << " the estimated error is up to " << estimated << Doubt(estimated, wanted) << ". "
        << ReasonOfError(kind) << " The result is kept.";
   return text.str();
 }
