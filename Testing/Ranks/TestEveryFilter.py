@@ -213,8 +213,8 @@ class EveryFilter(unittest.TestCase):
         ours, theirs = (numpy_support.vtk_to_numpy(surface.GetCellData().GetArray("Gradient"))
                         for surface in (output, alone))
         off = ranks.apart(ours[1:], theirs[origin(data, "originCell", of_cells)[1:]])
-        ranks.check(self, [f"{off} off"] if ours[0].any() or off > ROUNDING * abs(theirs).max()
-                    else [])
+        is_right = numpy.isnan(ours[0]).all() and off <= ROUNDING * abs(theirs).max()  # a vertex has none
+        ranks.check(self, [] if is_right else [f"{off} off, and {ours[0]} at the vertex"])
 
     def test_more_ranks_than_cells(self):
         def triangle():

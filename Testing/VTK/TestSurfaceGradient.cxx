@@ -330,6 +330,7 @@ TEST(SurfaceGradientFilter, LeavesVerticesAndUnusedPointsAlone)
   ASSERT_EQ(filter->GetOutput()->GetNumberOfCells(), sphere->GetNumberOfCells());
   auto* laplacian = filter->GetOutput()->GetPointData()->GetArray("Laplacian");
   EXPECT_TRUE(std::isnan(laplacian->GetComponent(lonely, 0)));
-  EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(0, 0), 0);
-  EXPECT_NE(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(1, 0), 0);
+  vtkDataArray* onCells = filter->GetOutput()->GetCellData()->GetArray("Laplacian");
+  EXPECT_TRUE(std::isnan(onCells->GetComponent(0, 0))); // the vertex
+  EXPECT_TRUE(std::isfinite(onCells->GetComponent(1, 0)));
 }

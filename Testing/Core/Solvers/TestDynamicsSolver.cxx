@@ -101,8 +101,9 @@ class ModesOfTheSphere : public ::testing::TestWithParam<FunctionKind>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(
-  Functions, ModesOfTheSphere, ::testing::Values(FunctionKind::Grid, FunctionKind::Hats));
+INSTANTIATE_TEST_SUITE_P(Functions, ModesOfTheSphere,
+  ::testing::Values(FunctionKind::Grid, FunctionKind::Hats),
+  [](const auto& tested) { return tested.param == FunctionKind::Grid ? "Grid" : "Hats"; });
 
 TEST_P(ModesOfTheSphere, OscillateWithTheRootOfTheirEigenvalue)
 {
