@@ -6,6 +6,7 @@
 
 #include "Base/Parallel.h"
 #include "Grid/CopiedTriangles.h"
+#include "Grid/Field.h"
 #include "Grid/PolygonTriangles.h"
 
 #include "vtkAOSDataArrayTemplate.h"
