@@ -98,9 +98,7 @@ void TakeCoincidentPatches(
 void FindComponents(GridFunctions& space, int threads)
 {
   space.component = FunctionComponents(space.Finest(), threads);
-  space.numberOfComponents =
-    space.component.empty() ? 0
-                            : *std::max_element(space.component.begin(), space.component.end()) + 1;
+  space.numberOfComponents = NumberOfComponents(space.component);
 }
 
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,

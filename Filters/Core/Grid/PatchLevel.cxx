@@ -4,6 +4,8 @@
 #include "Base/RadixSort.h"
 #include "Base/UnionFind.h"
 
+#include <algorithm>
+
 namespace gridfem
 {
 
@@ -192,5 +194,25 @@ std::vector<Index> FunctionComponents(const BasicPatchLevel<Functions>& level, i
 
 template std::vector<Index> FunctionComponents(const PatchLevel&, int);
 template std::vector<Index> FunctionComponents(const SmoothLevel&, int);
+
+Index NumberOfComponents(const std::vector<Index>& component)
+{
+  return component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;
+}
+
+template<int Functions>
+Index LargestComponent(const BasicPatchLevel<Functions>& level, int threads)
+{
+  const std::vector<Index> component = FunctionComponents(level, threads);
+  std::vector<Index> size(NumberOfComponents(component), 0);
+  for (const Index own : component)
+  {
+    ++size[own];
+  }
+  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+}
+
+template Index LargestComponent(const PatchLevel&, int);
+template Index LargestComponent(const SmoothLevel&, int);
 
 } // namespace gridfem

@@ -77,6 +77,14 @@ std::vector<PatchLevel> BuildLevels(
 template<int Functions>
 std::vector<Index> FunctionComponents(const BasicPatchLevel<Functions>& level, int threads = 0);
 
+/// Returns the number of components that functions have.
+/// @param component  of each function (FunctionComponents)
+Index NumberOfComponents(const std::vector<Index>& component);
+
+/// Returns the number of functions of the largest connected component.
+template<int Functions>
+Index LargestComponent(const BasicPatchLevel<Functions>& level, int threads = 0);
+
 } // namespace gridfem
 
 #endif

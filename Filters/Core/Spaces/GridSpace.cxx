@@ -63,10 +63,7 @@ Components GridSpace::ComponentsOf(std::size_t level, const Job& job) const
   }
   Components components;
   components.ofFunction = FunctionComponents(functions_->levels.at(level), job.threads);
-  for (const Index component : components.ofFunction)
-  {
-    components.count = std::max(components.count, component + 1);
-  }
+  components.count = NumberOfComponents(components.ofFunction);
   return components;
 }
 

@@ -12,18 +12,6 @@ namespace gridfem
 namespace
 {
 
-/// Returns the number of functions of the largest connected component.
-Index LargestComponent(const PatchLevel& level, int threads)
-{
-  std::vector<Index> size;
-  for (const Index component : FunctionComponents(level, threads))
-  {
-    size.resize(std::max(size.size(), static_cast<std::size_t>(component) + 1), 0);
-    ++size[component];
-  }
-  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
-}
-
 bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSize, int threads)
 {
   return level + 1 == space.levels.size() ||

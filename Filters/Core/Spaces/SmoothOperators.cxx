@@ -10,22 +10,6 @@ namespace gridfem
 namespace
 {
 
-Index NumberOfComponents(const std::vector<Index>& component)
-{
-  return component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;
-}
-
-Index LargestComponentOf(const SmoothLevel& level, int threads)
-{
-  const std::vector<Index> component = FunctionComponents(level, threads);
-  std::vector<Index> size(NumberOfComponents(component), 0);
-  for (const Index c : component)
-  {
-    ++size[c];
-  }
-  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
-}
-
 /// Removes the levels below the first one that is small enough.
 void KeepLevels(Index coarsestSize, int threads, std::vector<SmoothLevel>& levels)
 {
@@ -33,7 +17,7 @@ void KeepLevels(Index coarsestSize, int threads, std::vector<SmoothLevel>& level
     [&](const SmoothLevel& level)
     {
       return level.numberOfFunctions <= coarsestSize ||
-             LargestComponentOf(level, threads) <= coarsestSize;
+             LargestComponent(level, threads) <= coarsestSize;
     });
   levels.erase(coarsest + 1, levels.end());
 }

@@ -90,10 +90,7 @@ Components SmoothSpace::ComponentsOf(std::size_t level, const Job& job) const
   }
   Components components;
   components.ofFunction = FunctionComponents(operators_->levels.at(level), job.threads);
-  for (const Index component : components.ofFunction)
-  {
-    components.count = std::max(components.count, component + 1);
-  }
+  components.count = NumberOfComponents(components.ofFunction);
   return components;
 }
 
