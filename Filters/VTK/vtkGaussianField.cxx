@@ -2,6 +2,7 @@
 
 #include "Input/GivenValues.h"
 #include "Input/InputArray.h"
+#include "Input/PropertyList.h"
 #include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
@@ -212,17 +213,12 @@ void vtkGaussianField::WriteResult(vtkPolyData* output)
 
 void vtkGaussianField::AddObservation(vtkIdType point, double value)
 {
-  this->Data->Added.emplace_back(point, value);
-  this->Modified();
+  gridfem::AddToList(this->Data->Added, { point, value }, this);
 }
 
 void vtkGaussianField::ClearObservations()
 {
-  if (!this->Data->Added.empty())
-  {
-    this->Data->Added.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->Added, this);
 }
 
 vtkIdType vtkGaussianField::GetNumberOfObservations()

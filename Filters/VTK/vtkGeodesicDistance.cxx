@@ -1,6 +1,7 @@
 #include "vtkGeodesicDistance.h"
 
 #include "Input/NearestPoints.h"
+#include "Input/PropertyList.h"
 #include "Input/SelectedPoints.h"
 #include "Input/SurfaceCurves.h"
 #include "Output/SolverOutput.h"
@@ -56,17 +57,12 @@ int vtkGeodesicDistance::FillInputPortInformation(int port, vtkInformation* info
 
 void vtkGeodesicDistance::AddSourcePointId(vtkIdType id)
 {
-  this->Data->SourceIds.push_back(id);
-  this->Modified();
+  gridfem::AddToList(this->Data->SourceIds, id, this);
 }
 
 void vtkGeodesicDistance::ClearSourcePointIds()
 {
-  if (!this->Data->SourceIds.empty())
-  {
-    this->Data->SourceIds.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->SourceIds, this);
 }
 
 vtkIdType vtkGeodesicDistance::GetNumberOfSourcePointIds()
@@ -76,8 +72,7 @@ vtkIdType vtkGeodesicDistance::GetNumberOfSourcePointIds()
 
 vtkIdType vtkGeodesicDistance::GetSourcePointId(vtkIdType index)
 {
-  return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
-                                                                 : -1;
+  return gridfem::IdOfList(this->Data->SourceIds, index);
 }
 
 bool vtkGeodesicDistance::NeedsWholeSurface()

@@ -1,5 +1,6 @@
 #include "vtkGeodesicPaths.h"
 
+#include "Input/PropertyList.h"
 #include "Input/SelectedPoints.h"
 #include "Output/PathOutput.h"
 #include "Output/SolverOutput.h"
@@ -46,17 +47,12 @@ int vtkGeodesicPaths::FillInputPortInformation(int port, vtkInformation* info)
 
 void vtkGeodesicPaths::AddSourcePointId(vtkIdType id)
 {
-  this->Data->SourceIds.push_back(id);
-  this->Modified();
+  gridfem::AddToList(this->Data->SourceIds, id, this);
 }
 
 void vtkGeodesicPaths::ClearSourcePointIds()
 {
-  if (!this->Data->SourceIds.empty())
-  {
-    this->Data->SourceIds.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->SourceIds, this);
 }
 
 vtkIdType vtkGeodesicPaths::GetNumberOfSourcePointIds()
@@ -66,23 +62,17 @@ vtkIdType vtkGeodesicPaths::GetNumberOfSourcePointIds()
 
 vtkIdType vtkGeodesicPaths::GetSourcePointId(vtkIdType index)
 {
-  return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
-                                                                 : -1;
+  return gridfem::IdOfList(this->Data->SourceIds, index);
 }
 
 void vtkGeodesicPaths::AddTargetPointId(vtkIdType id)
 {
-  this->Data->TargetIds.push_back(id);
-  this->Modified();
+  gridfem::AddToList(this->Data->TargetIds, id, this);
 }
 
 void vtkGeodesicPaths::ClearTargetPointIds()
 {
-  if (!this->Data->TargetIds.empty())
-  {
-    this->Data->TargetIds.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->TargetIds, this);
 }
 
 vtkIdType vtkGeodesicPaths::GetNumberOfTargetPointIds()
@@ -92,8 +82,7 @@ vtkIdType vtkGeodesicPaths::GetNumberOfTargetPointIds()
 
 vtkIdType vtkGeodesicPaths::GetTargetPointId(vtkIdType index)
 {
-  return index >= 0 && index < this->GetNumberOfTargetPointIds() ? this->Data->TargetIds[index]
-                                                                 : -1;
+  return gridfem::IdOfList(this->Data->TargetIds, index);
 }
 
 void vtkGeodesicPaths::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -3,6 +3,7 @@
 #include "Input/GivenValues.h"
 #include "Input/InputArray.h"
 #include "Input/JoinedArrays.h"
+#include "Input/PropertyList.h"
 #include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
@@ -122,8 +123,7 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   gridfem::RequirePointArray(array, "Value Array",
     "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points. "
     "Or type points with their values into Known Values.");
-  array = this->Data->Arrays.Join(this, surface, array, "Value Array",
-    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
+  array = this->Data->Arrays.Join(this, surface, array, "Value Array");
   const gridfem::InputArray mask = surface.Find(1, "Mask Array");
   values.find = [this, array, mask, &surface]
   { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
@@ -190,17 +190,12 @@ void vtkHarmonicInterpolation::ClearFurtherArrays()
 
 void vtkHarmonicInterpolation::AddKnownValue(double point, double value)
 {
-  this->Data->Table.push_back({ point, value });
-  this->Modified();
+  gridfem::AddToList(this->Data->Table, { point, value }, this);
 }
 
 void vtkHarmonicInterpolation::ClearKnownValues()
 {
-  if (!this->Data->Table.empty())
-  {
-    this->Data->Table.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->Table, this);
 }
 
 int vtkHarmonicInterpolation::GetNumberOfKnownValues()

@@ -82,8 +82,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
-  data.Array = data.Arrays.Join(this, surface, surface.Find(0, "Array"), "Array",
-    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
+  data.Array = data.Arrays.Join(this, surface, surface.Find(0, "Array"), "Array");
   data.Source = surface.Find(1, "Heat Source Array");
   data.Mask = surface.Find(2, "Constraint Array");
 

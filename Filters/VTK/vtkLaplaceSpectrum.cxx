@@ -7,6 +7,7 @@
 #include "Pieces/CanDistribute.h"
 #include "Pieces/Ranks.h"
 #include "Pipeline/FilterState.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
@@ -19,11 +20,9 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 vtkStandardNewMacro(vtkLaplaceSpectrum);
@@ -151,16 +150,7 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
     return this->Mode;
   }
   const int first = this->FirstTimeStep(count);
-  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    return first;
-  }
-  const double time = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-  if (!(time > first)) // NaN as well
-  {
-    return first;
-  }
-  return static_cast<int>(std::lround(std::min(time, double(count - 1))));
+  return gridfem::RequestedTime(output) ? gridfem::ShownStep(output, first, count - 1) : first;
 }
 
 /// Adds one mode at a time, because all of them may need much memory. Collective.

@@ -74,8 +74,7 @@ void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
   gridfem::InputSurface& surface = this->State->Surface();
-  data.Value = data.Arrays.Join(this, surface, surface.Find(0, "Value Array"), "Value Array",
-    [&surface](int index, const std::string& property) { return surface.Find(index, property); });
+  data.Value = data.Arrays.Join(this, surface, surface.Find(0, "Value Array"), "Value Array");
   data.Gradient = surface.Find(1, "Gradient Array");
   data.Scale = surface.Find(2, "Gradient Scale Array");
   data.Weight = surface.Find(3, "Value Weight Array");

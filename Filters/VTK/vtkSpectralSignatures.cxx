@@ -2,6 +2,7 @@
 
 #include "Input/CarriedModes.h"
 #include "Input/ModeReader.h"
+#include "Input/PropertyList.h"
 #include "Input/SourcePoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
@@ -65,17 +66,12 @@ int vtkSpectralSignatures::FillOutputPortInformation(int port, vtkInformation* i
 
 void vtkSpectralSignatures::AddSourcePointId(vtkIdType id)
 {
-  this->Data->SourceIds.push_back(id);
-  this->Modified();
+  gridfem::AddToList(this->Data->SourceIds, id, this);
 }
 
 void vtkSpectralSignatures::ClearSourcePointIds()
 {
-  if (!this->Data->SourceIds.empty())
-  {
-    this->Data->SourceIds.clear();
-    this->Modified();
-  }
+  gridfem::ClearList(this->Data->SourceIds, this);
 }
 
 vtkIdType vtkSpectralSignatures::GetNumberOfSourcePointIds()
@@ -85,8 +81,7 @@ vtkIdType vtkSpectralSignatures::GetNumberOfSourcePointIds()
 
 vtkIdType vtkSpectralSignatures::GetSourcePointId(vtkIdType index)
 {
-  return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
-                                                                 : -1;
+  return gridfem::IdOfList(this->Data->SourceIds, index);
 }
 
 /// A rank knows only its own points, so that the sources of other ranks are missing. Moved points

@@ -116,12 +116,14 @@ std::string NameOfTuple(const InputArray& input, vtkIdType tuple)
 
 bool HasNaN(vtkDataArray* array, vtkIdType tuple, int first, int components)
 {
-  int c = first;
-  while (c < first + components && !std::isnan(array->GetComponent(tuple, c)))
+  for (int c = first; c < first + components; ++c)
   {
-    ++c;
+    if (std::isnan(array->GetComponent(tuple, c)))
+    {
+      return true;
+    }
   }
-  return c < first + components;
+  return false;
 }
 
 /// Copies a tuple into a row. Throws if a value is not finite.

@@ -27,8 +27,8 @@ struct InputArray
   vtkDataArray* array = nullptr;
   FieldAssociation association = FieldAssociation::Points; // Triangles: cell data
   std::string name;
-  std::vector<int>
-    parts{}; // components of each array that it is joined from; empty: it is one array
+  /// Components of each array that it is joined from; empty: it is one array.
+  std::vector<int> parts{};
 };
 
 /// Thrown if the input lacks the chosen array.

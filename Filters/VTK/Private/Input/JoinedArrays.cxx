@@ -101,6 +101,13 @@ InputArray JoinedArrays::Join(vtkAlgorithm* filter, const InputSurface& surface,
   return all;
 }
 
+InputArray JoinedArrays::Join(
+  vtkAlgorithm* filter, InputSurface& surface, const InputArray& first, const std::string& property)
+{
+  return this->Join(filter, surface, first, property,
+    [&surface](int index, const std::string& further) { return surface.Find(index, further); });
+}
+
 vtkSmartPointer<vtkDataArray> JoinedArrays::CopyTogether() const
 {
   const int components = std::accumulate(parts_.begin(), parts_.end(), 0,

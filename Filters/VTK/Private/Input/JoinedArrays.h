@@ -42,6 +42,10 @@ public:
   InputArray Join(vtkAlgorithm* filter, const InputSurface& surface, const InputArray& first,
     const std::string& property, const FindArray& find);
 
+  /// The same with further arrays of the surface.
+  InputArray Join(vtkAlgorithm* filter, InputSurface& surface, const InputArray& first,
+    const std::string& property);
+
   /// Adds the solution of each array to the point data, and makes the first one active. It has the
   /// given name. The solution of a further array has the name of this array before it, with `_`.
   void AddSolutions(const char* name, const MultiVector& values, vtkPointData* points) const;

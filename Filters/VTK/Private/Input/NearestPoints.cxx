@@ -1,9 +1,9 @@
 #include "Input/NearestPoints.h"
 
 #include "Base/Errors.h"
+#include "Input/DataLines.h"
 #include "Pipeline/Allocation.h"
 
-#include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -182,19 +182,14 @@ std::vector<Id> NearestPointsAlongLines(const TriangleMesh& mesh, vtkDataSet* pl
   const auto at = [&](vtkIdType point) {
     return PlaceOnLine{ PlaceAt(places, point), nearest[static_cast<std::size_t>(point)] };
   };
-  vtkNew<vtkIdList> points;
-  for (vtkIdType cell = 0; cell < places->GetNumberOfCells(); ++cell)
-  {
-    const int type = places->GetCellType(cell);
-    if (type == VTK_LINE || type == VTK_POLY_LINE)
+  ForEachLine(places,
+    [&](vtkIdList* points)
     {
-      places->GetCellPoints(cell, points);
       for (vtkIdType k = 0; k + 1 < points->GetNumberOfIds(); ++k)
       {
         AddBetween(finder, at(points->GetId(k)), at(points->GetId(k + 1)), MostDivisions, nearest);
       }
-    }
-  }
+    });
   return nearest;
 }
 

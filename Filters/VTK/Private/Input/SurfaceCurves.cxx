@@ -1,10 +1,10 @@
 #include "Input/SurfaceCurves.h"
 
 #include "Base/Errors.h"
+#include "Input/DataLines.h"
 #include "Pipeline/Allocation.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
@@ -21,38 +21,26 @@ namespace gridfem
 namespace
 {
 
-std::vector<std::vector<Vec3>> ReadLines(vtkDataSet* data)
+std::vector<Vec3> ReadLine(vtkDataSet* data, vtkIdList* ids)
 {
-  std::vector<std::vector<Vec3>> lines;
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType cell = 0; data && cell < data->GetNumberOfCells(); ++cell)
+  std::vector<Vec3> line;
+  for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
   {
-    const int type = data->GetCellType(cell);
-    if (type != VTK_LINE && type != VTK_POLY_LINE)
+    if (ids->GetId(k) < 0 || ids->GetId(k) >= data->GetNumberOfPoints())
     {
-      continue;
+      throw InvalidInput("Sources: a line uses point " + std::to_string(ids->GetId(k)) +
+                         ", but there are " + std::to_string(data->GetNumberOfPoints()) +
+                         " points.");
     }
-    data->GetCellPoints(cell, ids);
-    std::vector<Vec3> line;
-    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    line.emplace_back();
+    data->GetPoint(ids->GetId(k), line.back().data());
+    if (!line.back().allFinite())
     {
-      if (ids->GetId(k) < 0 || ids->GetId(k) >= data->GetNumberOfPoints())
-      {
-        throw InvalidInput("Sources: a line uses point " + std::to_string(ids->GetId(k)) +
-                           ", but there are " + std::to_string(data->GetNumberOfPoints()) +
-                           " points.");
-      }
-      line.emplace_back();
-      data->GetPoint(ids->GetId(k), line.back().data());
-      if (!line.back().allFinite())
-      {
-        throw InvalidInput("Sources: point " + std::to_string(ids->GetId(k)) +
-                           " of a line has a NaN or infinite coordinate.");
-      }
+      throw InvalidInput("Sources: point " + std::to_string(ids->GetId(k)) +
+                         " of a line has a NaN or infinite coordinate.");
     }
-    lines.push_back(std::move(line));
   }
-  return lines;
+  return line;
 }
 
 /// Finds the triangle nearest to a point.
@@ -144,7 +132,11 @@ private:
 
 SurfaceCurve CurveOfLines(vtkDataSet* lines, const TriangleMesh& mesh, bool weldCoincidentPoints)
 {
-  const std::vector<std::vector<Vec3>> polylines = ReadLines(lines);
+  std::vector<std::vector<Vec3>> polylines;
+  if (lines)
+  {
+    ForEachLine(lines, [&](vtkIdList* ids) { polylines.push_back(ReadLine(lines, ids)); });
+  }
   if (polylines.empty())
   {
     return {};

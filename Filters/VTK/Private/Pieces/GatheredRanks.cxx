@@ -1,5 +1,6 @@
 #include "Pieces/GatheredRanks.h"
 
+#include "Input/DataLines.h"
 #include "Pieces/GatheredOutput.h"
 #include "Pipeline/Allocation.h"
 #include "Pipeline/InformationCopy.h"
@@ -8,10 +9,8 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCellType.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -53,16 +52,7 @@ StageKey KeyOf(vtkInformationVector** inputs, int ports, bool weldCoincidentPoin
 vtkSmartPointer<vtkCellArray> LinesOf(vtkDataSet* data)
 {
   auto lines = vtkSmartPointer<vtkCellArray>::New();
-  vtkNew<vtkIdList> points;
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
-  {
-    const int type = data->GetCellType(cell);
-    if (type == VTK_LINE || type == VTK_POLY_LINE)
-    {
-      data->GetCellPoints(cell, points);
-      lines->InsertNextCell(points);
-    }
-  }
+  ForEachLine(data, [&](vtkIdList* points) { lines->InsertNextCell(points); });
   return lines;
 }
 

@@ -23,13 +23,6 @@ std::optional<double> TimeOf(vtkDataObject* data)
            : std::nullopt;
 }
 
-std::optional<double> RequestedTime(vtkInformation* info)
-{
-  return info->Has(Pipeline::UPDATE_TIME_STEP())
-           ? std::make_optional(info->Get(Pipeline::UPDATE_TIME_STEP()))
-           : std::nullopt;
-}
-
 std::optional<double> FirstStep(vtkInformation* info)
 {
   return info->Length(Pipeline::TIME_STEPS()) > 0
@@ -61,6 +54,13 @@ void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* output
     info->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
     info->Set(Pipeline::TIME_RANGE(), range, 2);
   }
+}
+
+std::optional<double> RequestedTime(vtkInformation* info)
+{
+  return info->Has(Pipeline::UPDATE_TIME_STEP())
+           ? std::make_optional(info->Get(Pipeline::UPDATE_TIME_STEP()))
+           : std::nullopt;
 }
 
 int ShownStep(vtkInformation* output, int firstStep, int lastStep)

@@ -15,6 +15,9 @@ namespace gridfem
 /// Gives all outputs the filter's own time steps. They are ascending, at least one.
 void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* outputs);
 
+/// Returns the time that an output is asked for, or an input by the filter, if there is one.
+std::optional<double> RequestedTime(vtkInformation* info);
+
 /// Returns the step that an output is asked for, if steps are whole numbers. The last if none is
 /// asked for.
 int ShownStep(vtkInformation* output, int firstStep, int lastStep);

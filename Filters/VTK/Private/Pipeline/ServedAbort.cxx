@@ -1,13 +1,13 @@
 #include "Pipeline/ServedAbort.h"
 
 #include "Pieces/Ranks.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleKey.h"
 #include "vtkInformationIdTypeKey.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersionMacros.h"
 
 #include <algorithm>
@@ -36,9 +36,7 @@ vtkInformationDoubleKey* AbortedTimeStep()
 /// Returns the time step that is requested from the first output. 0 if there is none.
 double RequestedTimeStep(vtkAlgorithm* filter)
 {
-  vtkInformation* output = filter->GetExecutive()->GetOutputInformation(0);
-  vtkInformationDoubleKey* key = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-  return output->Has(key) ? output->Get(key) : 0.0;
+  return RequestedTime(filter->GetExecutive()->GetOutputInformation(0)).value_or(0.0);
 }
 
 /// The time of the last change of the filter or of anything before it, when the pipeline began this
