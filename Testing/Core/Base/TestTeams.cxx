@@ -9,10 +9,7 @@
 #include <atomic>
 
 #ifdef __linux__
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <fstream>
+#include "MemoryLimit.h"
 #endif
 
 namespace gridfem
@@ -74,29 +71,10 @@ TEST(Teams, AnExceptionOfAJobComesWhenAllHaveEnded)
 }
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// While this object lives, the address space of the process can grow only by `room` bytes.
-class Limit
-{
-public:
-  explicit Limit(rlim_t room)
-  {
-    rlim_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    getrlimit(RLIMIT_AS, &former_);
-    const rlimit limit{ pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + room,
-      former_.rlim_max };
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~Limit() { setrlimit(RLIMIT_AS, &former_); }
-
-private:
-  rlimit former_{};
-};
-
 TEST(Teams, AreAnErrorWithoutMemoryAndCanBeHadLater)
 {
   {
-    const Limit limit(32 << 20);
+    const testing::MemoryLimit limit(32 << 20);
     EXPECT_THROW(RequireTeam(Many), OutOfThreads); // OpenMP itself would end the process
     EXPECT_FALSE(CanStart(Many));
   }
@@ -110,7 +88,7 @@ TEST(Teams, JobsSideBySideNeedNoThreads)
 {
   std::atomic<int> runs{ 0 };
   {
-    const Limit limit(1 << 20);
+    const testing::MemoryLimit limit(1 << 20);
     SideBySide(Many, Many, [&](int) { ++runs; });
   }
   EXPECT_EQ(runs, Many);

@@ -9,12 +9,10 @@
 #include <gtest/gtest.h>
 
 #ifdef __linux__
-#include <sys/resource.h>
-#include <unistd.h>
+#include "MemoryLimit.h"
 #endif
 
 #include <cmath>
-#include <fstream>
 #include <vector>
 
 using namespace gridfem;
@@ -110,16 +108,9 @@ TEST(DepthSearch, ReachesAnErrorThatIsTrustedOrSmallTwice)
 /// Returns the depth after this depth if a process may take `room` bytes.
 int DepthWithin(double room, const TriangleMesh& mesh, FunctionKind kind)
 {
-  rlimit before{};
-  double pages = 0.0;
-  EXPECT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  EXPECT_TRUE(std::ifstream("/proc/self/statm") >> pages);
-  rlimit limit = before;
-  limit.rlim_cur = static_cast<rlim_t>(pages * double(getpagesize()) + room);
-  setrlimit(RLIMIT_AS, &limit);
+  const MemoryLimit limit(room);
   DepthSearch search;
   search.Judge(mesh, Errors(std::pow(0.25, 5), true), std::pow(0.25, 7), kind);
-  setrlimit(RLIMIT_AS, &before);
   return search.Depth();
 }
 

@@ -1,14 +1,12 @@
 // The memory estimate against the sizes that are really built.
 #include "Discretization.h"
+#include "MemoryLimit.h"
 #include "Meshes.h"
 #include "Solvers/MemoryEstimate.h"
 #include "Solvers/Requirements.h"
 #include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -288,16 +286,13 @@ TEST(MemoryEstimate, KnowsTheLimitOfTheProcess)
   };
   ASSERT_GT(NeedOfModes(100000, 300, 1).bytes, 1.5 * Room);
   EXPECT_FALSE(isRefused());
-  rlimit before{};
-  double pages = 0.0;
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  ASSERT_TRUE(std::ifstream("/proc/self/statm") >> pages);
-  rlimit limit = before;
-  limit.rlim_cur = static_cast<rlim_t>(pages * double(getpagesize()) + Room);
-  setrlimit(RLIMIT_AS, &limit);
-  const double room = MemoryOfProcess();
-  const bool isRefusedWithin = isRefused();
-  setrlimit(RLIMIT_AS, &before);
+  double room = 0.0;
+  bool isRefusedWithin = false;
+  {
+    const testing::MemoryLimit limit(Room);
+    room = MemoryOfProcess();
+    isRefusedWithin = isRefused();
+  }
   EXPECT_NEAR(room, Room, 0.2 * Room);
   EXPECT_TRUE(isRefusedWithin);
   EXPECT_FALSE(isRefused());
