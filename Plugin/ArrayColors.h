@@ -5,8 +5,7 @@
 //   </Hints>
 //
 // `array` is a point or cell array of port 0, without the prefix of results, or of the port in the
-// attribute `port`. A name that ends in * stands for all arrays that begin with it. `colors` is one
-// of
+// attribute `port`. A name that ends in * stands for all arrays that begin with it. The `colors`:
 //   diverging    ParaView's default colors, with 0 always in the middle
 //   sequential   from dark to light; diverging if some values are below 0
 //   stripes      the same in stripes, for distances

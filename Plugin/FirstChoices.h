@@ -2,8 +2,7 @@
 // the filter needs these hints:
 //
 //   <Hints>
-//     <ChoosesArray property="ValueArray"
-//       otherwise="ScreeningWeight" value="10000" />
+//     <ChoosesArray property="ValueArray" otherwise="ScreeningWeight" value="10000" />
 //     <ChoosesNumber property="Depth" value="5" />
 //     <ChoosesPoints property="KnownValues" />
 //   </Hints>
@@ -13,9 +12,8 @@
 //                  candidates. If there is none, the property `otherwise` gets the value, which
 //                  suits the shape
 //   ChoosesNumber  the property gets the value
-//   ChoosesPoints  a table of points and values gets an example: four points spread over the
-//   numbers
-//                  of the points, with the values 0 to 3. Only for polygonal data
+//   ChoosesPoints  a table of points and values gets an example: four points spread over the ids,
+//                  with the values 0 to 3. Only for polygonal data
 //
 // Only filters that the user makes in ParaView's window get these choices. Scripts, macros and
 // states make their own choices, in the window as well. Values that the user has saved as defaults

@@ -6,8 +6,8 @@
  * points before it. If distances were exact, the largest distance to a found point would be at most
  * twice the largest distance of the best choice of equally many points. Every connected component
  * gets a point before any component gets a second one. A warning tells if there are too few points
- * for all components. Each point takes one solution of vtkGeodesicDistance. A larger
- * NumberOfPoints continues from the points found before.
+ * for all components. Each point takes one solution of vtkGeodesicDistance. A larger NumberOfPoints
+ * continues from the points found before.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.

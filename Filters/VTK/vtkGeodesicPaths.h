@@ -3,10 +3,9 @@
  * @brief   shortest paths along a surface between some of its points
  *
  * Connects points by the shortest lines on the surface, exactly on its triangles (see `Shortest`
- * below). A search through
- * points and midpoints of edges finds a first path. The path is pulled tight until no line nearby
- * is shorter. A search by windows (Chen and Han 1990, Xin and Wang 2009) then looks for a shorter
- * path everywhere.
+ * below). A search through points and midpoints of edges finds a first path. The path is pulled
+ * tight until no line nearby is shorter. A search by windows (Chen and Han 1990, Xin and Wang 2009)
+ * then looks for a shorter path everywhere.
  *
  * PathType determines the connections. ToNearestSource (default) leads a path from the nearest
  * source to each target. InOrder leads from each point to the next: the sources first, then the

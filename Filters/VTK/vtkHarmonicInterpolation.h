@@ -92,10 +92,10 @@ public:
 
   ///@{
   /**
-   * Further arrays that are interpolated together with the ValueArray, at the same known
-   * points. They are point data. The result of each has the name of the array before
-   * its name, as in `Thickness_Interpolated`. All errors, and all other numbers in the field data,
-   * are then the worst of all arrays. None by default.
+   * Further arrays that are interpolated together with the ValueArray, at the same known points.
+   * They are point data. The result of each has the name of the array before its name, as in
+   * `Thickness_Interpolated`. All errors, and all other numbers in the field data, are then the
+   * worst of all arrays. None by default.
    */
   void AddFurtherArray(const char* name);
   void ClearFurtherArrays();

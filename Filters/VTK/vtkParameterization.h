@@ -25,11 +25,11 @@
  *   no polygon uses. They are missing if a point has several places in the map: on a cut, where a
  *   one-sided surface is opened, and where three sheets meet.
  * - field data, one number per chart: `EulerCharacteristic` and `BoundaryLoops` of the component as
- *   it was given, `FlippedTriangles` (all vtkIdType), `MeanAngleDistortion` and
- * `MeanAreaDistortion` (double; the mean over the area, of absolute values). The filter warns about
- * flipped triangles.
- * - field data: `Converged` (int, 1), `Iterations` (int, 1) of the isometric map that took most.
- * Other maps need no iterations. If a map has not converged, the filter warns and keeps it.
+ *   it was given, `FlippedTriangles` (all vtkIdType), and two means over the area, of absolute
+ *   values: `MeanAngleDistortion` and `MeanAreaDistortion` (double). The filter warns about flipped
+ *   triangles.
+ * - field data: `Converged` (int, 1), and `Iterations` (int, 1) of the isometric map that took
+ *   most. Other maps need no iterations. If a map has not converged, the filter warns and keeps it.
  *
  * Output port 1 (vtkPolyData): the flat triangles, beside the surface, with the arrays of the input
  * and of port 0. `TCoords` are always there. Points on cuts are there twice.

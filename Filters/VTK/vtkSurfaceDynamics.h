@@ -27,13 +27,13 @@
  *   Without it the start is a disturbance of the selection. Without a selection it is noise, or one
  *   bump for Wave and Transport.
  * - index 1: the velocity of Transport, point or cell data with three components, in world length
- * per time.
+ *   per time.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `U` and, unless the Model is AllenCahn or Transport, `V` (double, 1).
  * - field data: `Step` (int, 1), `Time` (double, 1), `Integral` (double, one component for each of
- * u and v; squared world length) and, for Wave, `Energy` (double, 1). `Energy` includes a small
- * term of |∇v|², which belongs to the mass of the scheme.
+ *   u and v; squared world length) and, for Wave, `Energy` (double, 1). `Energy` includes a small
+ *   term of |∇v|², which belongs to the mass of the scheme.
  * - field data, of all solves since the step before: `Converged`, `Iterations`,
  *   `DoublePrecisionSince`, `Residual` and `ConvergenceFactor`.
  *

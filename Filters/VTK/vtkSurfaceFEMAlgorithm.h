@@ -17,7 +17,7 @@
  *   (int, one value) to 0.
  * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not
  *   run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run, after a change
- * or for another time, is a full one.
+ *   or for another time, is a full one.
  *
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips.
  * vtkDataSetSurfaceFilter extracts the surface of any other vtkDataSet. The outputs then lie on
@@ -121,8 +121,7 @@ public:
   /**
    * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7. With 0, the
    * filter chooses the finest grid, from 6 on, that has no more functions than the surface has
-   * points and that fits into memory. 1 counts as 2. The field array
-   * `UsedDepth` gives the depth.
+   * points and that fits into memory. 1 counts as 2. The field array `UsedDepth` gives the depth.
    */
   vtkSetInRangeMacro(Depth, int, 0, 14);
   vtkGetMacro(Depth, int);
