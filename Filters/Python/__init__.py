@@ -67,7 +67,7 @@ class _Results:
             raise Error(" ".join([f"The result has no {name}.", *self.messages])) from None
 
 
-def _solve(name, points, cells, given, properties, sources=(), on=None, observed=()):
+def _solve(name, points, cells, given, properties, sources=(), on=None, observed=(), reactions=()):
     points, cells = _inputs.checked(points, cells)
     properties = _inputs.chosen(properties)
     arrays = {}
@@ -81,7 +81,7 @@ def _solve(name, points, cells, given, properties, sources=(), on=None, observed
                           "warning.", RuntimeWarning, stacklevel=3)
         arrays[array] = values, place != "cells"
     try:
-        results, messages = _solve_numbered(name, points, cells, arrays, properties, sources, observed)
+        results, messages = _solve_numbered(name, points, cells, arrays, properties, sources, observed, reactions)
     except Error as error:
         raise Error(in_words_of_functions(name, str(error), arrays)) from None
     messages = [in_words_of_functions(name, message, arrays) for message in messages]
@@ -289,18 +289,24 @@ def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None,
                   {**amount, "NumberOfSteps": 8, **properties}, on=on)["Diffused"]
 
 
-def dynamics(points, cells, model, length=0.1, steps=20, start=None, velocity=None, **properties):
+def dynamics(points, cells, model, length=0.1, steps=20, start=None, velocity=None, reactions=None,
+             **properties):
     """Computes patterns, waves or transport on the surface, and returns the last of `steps` time steps.
 
-    model: "TuringSpots", "GrayScott", "FitzHughNagumo", "AllenCahn", "Wave" or "Transport". length: the
-    PatternLength in ParameterUnits. start: one or two columns at time 0. None takes noise, or a bump for
+    model: "TuringSpots", "GrayScott", "FitzHughNagumo", "AllenCahn", "Wave", "Transport" or "Custom". length:
+    the PatternLength in ParameterUnits. start: one or two columns at time 0. None takes noise, or a bump for
     Wave and Transport. velocity: three columns, for Transport. TimeStep is the time between two steps.
-    Returns u and v (N, 2), or u (N,) for AllenCahn and Transport. The result can be the start of the next
+    reactions, for Custom: the rates as formulas, ("0.1 - u + u^2*v", "0.9 - u^2*v") of two species or
+    "u*(1-u)" of one. Diffusivity and DiffusivityV spread them.
+    Returns u and v (N, 2), or u (N,) where there is one unknown. The result can be the start of the next
     call.
     """
+    formulas = (reactions,) if isinstance(reactions, str) else tuple(reactions or ())
+    if (model in ("Custom", 6)) != (0 < len(formulas) < 3):
+        raise Error("Custom takes one or two reactions, and the other models take none.")
     return _solve("SurfaceDynamics", points, cells, {"start": start, "velocity": velocity},
-                  {"Model": model, "PatternLength": length, "NumberOfSteps": steps,
-                   **properties})["State"]
+                  {"Model": model, "PatternLength": length, "NumberOfSteps": steps, **properties},
+                  reactions=formulas)["State"]
 
 
 def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0.0, **properties):

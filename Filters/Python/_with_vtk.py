@@ -153,11 +153,11 @@ def _set(algorithm, name, key, value):
         raise Error(f"{key} = {value!r}: {error}") from None
 
 
-def solve(name, points, cells, arrays, properties, sources=(), observed=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=()):
     """Returns the arrays that the filter gives, by their names, and its warnings.
 
     arrays: values and whether they are at points, by name. sources: ids of points. observed: the
-    values of Gaussian Field at these points.
+    values of Gaussian Field at these points. reactions: the formulas of Surface Dynamics.
     """
     algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
     messages = []
@@ -175,6 +175,9 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=()):
         algorithm.AllModesOn()
     for key, value in properties.items():
         _set(algorithm, name, key, value)
+    if reactions:
+        algorithm.SetReactionU(reactions[0])
+        algorithm.SetReactionV("".join(reactions[1:]))
     if name == "GaussianField":
         for point, value in zip(sources, observed):
             algorithm.AddObservation(int(point), float(value))

@@ -4,6 +4,7 @@ import importlib
 
 import numpy
 
+from ._formulas import rates
 from ._inputs import Error, colors_like, number, result_like
 
 
@@ -52,11 +53,11 @@ def triangulate(corners):
     return _core.triangulate(corners)
 
 
-def solve(name, points, cells, arrays, properties, sources=(), observed=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=()):
     """Returns the arrays that the filter of this name would give, by their names, and warnings.
 
     arrays: values and whether they are at points, by name. sources: ids of points. observed: the
-    values of Gaussian Field at these points.
+    values of Gaussian Field at these points. reactions: the formulas of Surface Dynamics.
     """
     for key in properties.keys() - _core.properties(name).keys():
         raise Error(f"{name} has no property {key}")
@@ -67,7 +68,8 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=()):
             {array: (_matrix(values), on_points) for array, (values, on_points) in arrays.items()},
             numbers,
             [int(source) for source in sources],
-            [float(value) for value in observed])
+            [float(value) for value in observed],
+            rates(reactions) if reactions else None, len(reactions))
     except MemoryError:
         raise Error(_out_of_memory(name, properties)) from None
     except ValueError as error:

@@ -1,6 +1,7 @@
 #include "vtkSurfaceDynamics.h"
 
 #include "Input/InputArray.h"
+#include "Input/ReactionFormulas.h"
 #include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
@@ -82,9 +83,14 @@ void vtkSurfaceDynamics::Compute(vtkInformationVector** inputs, vtkInformationVe
   options.kill = this->Kill;
   options.damping = this->Damping;
   options.diffusivity = this->Diffusivity;
+  options.diffusivityV = this->DiffusivityV;
   gridfem::DynamicsSolver::Input given;
   given.start = surface.Given(start);
   given.velocity = surface.Given(velocity);
+  if (this->Model == Custom)
+  {
+    given.reactions = gridfem::ReactionsOfFormulas(this->ReactionU, this->ReactionV);
+  }
   if (this->Selection->IsGiven())
   {
     given.disturbed.property = "Selection";
@@ -149,4 +155,7 @@ void vtkSurfaceDynamics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Kill: " << this->Kill << "\n";
   os << indent << "Damping: " << this->Damping << "\n";
   os << indent << "Diffusivity: " << this->Diffusivity << "\n";
+  os << indent << "DiffusivityV: " << this->DiffusivityV << "\n";
+  os << indent << "ReactionU: " << this->ReactionU << "\n";
+  os << indent << "ReactionV: " << this->ReactionV << "\n";
 }

@@ -11,6 +11,8 @@
  * - AllenCahn: du/dt = D Δu + u - u³. Two phases, whose fronts move by their curvature.
  * - Wave: d²u/dt² + Damping du/dt = Δu, with v = du/dt.
  * - Transport: du/dt + div(u w) = Diffusivity Δu with the velocity w of VelocityArray.
+ * - Custom: du/dt = Diffusivity Δu + ReactionU and dv/dt = DiffusivityV Δv + ReactionV. The
+ *   reactions are formulas of u and v. Without a formula for v there is u alone.
  *
  * PatternLength determines D: it is about the distance between two spots, stripes or waves. Steps
  * in time are of second order. Linear terms are implicit, reactions and transport explicit. Nothing
@@ -30,7 +32,7 @@
  *   per time.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
- * - point data: `U` and, unless the Model is AllenCahn or Transport, `V` (double, 1).
+ * - point data: `U` and, unless the Model has one unknown, `V` (double, 1).
  * - field data: `Step` (int, 1), `Time` (double, 1), `Integral` (double, one component for each of
  *   u and v; squared world length) and, for Wave, `Energy` (double, 1). `Energy` includes a small
  *   term of |∇v|², which belongs to the mass of the scheme.
@@ -42,13 +44,15 @@
  *
  * The filter uses all shared properties except Accuracy and TrackMetric. By default Depth
  * is 6, Tolerance 1e-4 and NormalStabilization 1e-2. SmoothGrid functions are refused.
- * PatternLength and Diffusivity are in the unit of length of ParameterUnits. On several MPI ranks
+ * PatternLength and diffusivities are in the unit of length of ParameterUnits. On several MPI ranks
  * the surface is gathered.
  */
 #ifndef vtkSurfaceDynamics_h
 #define vtkSurfaceDynamics_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
+
+#include <string>
 
 namespace gridfem
 {
@@ -69,13 +73,14 @@ public:
     FitzHughNagumo = 2,
     AllenCahn = 3,
     Wave = 4,
-    Transport = 5
+    Transport = 5,
+    Custom = 6
   };
   ///@{
   /**
    * The equations. Default TuringSpots.
    */
-  vtkSetInRangeMacro(Model, int, TuringSpots, Transport);
+  vtkSetInRangeMacro(Model, int, TuringSpots, Custom);
   vtkGetMacro(Model, int);
   ///@}
 
@@ -134,11 +139,31 @@ public:
 
   ///@{
   /**
-   * The diffusivity of Transport, in the squared unit of length of ParameterUnits per time. Above
-   * 0, default 1e-4.
+   * The diffusivity of Transport, and of u with Custom, in the squared unit of length of
+   * ParameterUnits per time. Above 0 for Transport, else 0 or more. Default 1e-4.
    */
   vtkSetMacro(Diffusivity, double);
   vtkGetMacro(Diffusivity, double);
+  ///@}
+
+  ///@{
+  /**
+   * The diffusivity of v with Custom. 0 or more, default 4e-3.
+   */
+  vtkSetMacro(DiffusivityV, double);
+  vtkGetMacro(DiffusivityV, double);
+  ///@}
+
+  ///@{
+  /**
+   * The reactions of Custom: formulas of u and v for vtkExprTkFunctionParser. An empty ReactionV
+   * means that there is u alone. The default, 0.1 - u + u^2*v and 0.9 - u^2*v, grows spots. Without
+   * an array or a selection, u and v start from noise between 0 and 1.
+   */
+  vtkSetStdStringFromCharMacro(ReactionU);
+  vtkGetCharFromStdStringMacro(ReactionU);
+  vtkSetStdStringFromCharMacro(ReactionV);
+  vtkGetCharFromStdStringMacro(ReactionV);
   ///@}
 
   /**
@@ -169,6 +194,9 @@ protected:
   double Kill = 0.06;
   double Damping = 0.0;
   double Diffusivity = 1e-4;
+  double DiffusivityV = 4e-3;
+  std::string ReactionU = "0.1 - u + u^2*v";
+  std::string ReactionV = "0.9 - u^2*v";
 
 private:
   vtkSurfaceDynamics(const vtkSurfaceDynamics&) = delete;

@@ -22,7 +22,7 @@ MOST_SHOWN = 5
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
                  "TransitionWidth": 0, "FWHM": 0, "Sigma": 0, "Range": 0,
                  "StandardDeviation": 0, "PatternLength": 0, "TimeStep": 0, "Feed": 0, "Kill": 0, "Damping": 0,
-                 "Diffusivity": 0}
+                 "Diffusivity": 0, "DiffusivityV": 0}
 
 # Words that people type into the search of ParaView's window, and a filter that they find.
 JOBS = {

@@ -142,6 +142,10 @@ class Engines(unittest.TestCase):
             self.compare(lambda g, p, c, **o: g.dynamics(p, c, model, 0.5, 2, Seed=3, Tolerance=1e-12, **o))
         self.compare(lambda g, p, c, **o: g.dynamics(
             p, c, "Transport", 0.5, 2, start=p[:, 0], velocity=p[:, [1, 2, 0]], Tolerance=1e-12, **o))
+        for reactions in (("0.1 - u + u^2*v", "0.9 - u^2*v"), ("u*(1-u)",),
+                          ("-u^2*u + if((u > 0.4) and (v < 0.7), sin(u), -u)", "min(u, v, 0.5)/3 - 1e-1*exp(-v)")):
+            self.compare(lambda g, p, c, **o: g.dynamics(
+                p, c, "Custom", 0.5, 2, reactions=reactions, Tolerance=1e-12, **o))
 
     def test_krige(self):
         self.compare(lambda g, p, c, **o: g.krige(
@@ -313,6 +317,10 @@ class Engines(unittest.TestCase):
             "property": lambda g: g.detail(points, triangles, Dept=3),
             "range": lambda g: g.detail(points, triangles, SmoothingScale=-1.0),
             "degree": lambda g: g.flow(points, triangles, QuadratureDegree=3),
+            "symbol": lambda g: g.dynamics(points, triangles, "Custom", reactions=("u", "u*w")),
+            "variable": lambda g: g.dynamics(points, triangles, "Custom", reactions="u*v"),
+            "no reactions": lambda g: g.dynamics(points, triangles, "Custom"),
+            "named reactions": lambda g: g.dynamics(points, triangles, "Wave", reactions="u"),
             "gradients": lambda g: g.poisson(points, triangles, points, points),
             "error": lambda g: g.poisson(
                 points, triangles, points, FunctionSpace=1, WantedError=1e-6),

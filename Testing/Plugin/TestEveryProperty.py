@@ -96,7 +96,8 @@ STARTS = {
                         {"Model": 1, "PatternLength": 1.0, "NumberOfSteps": 1},
                         {"Model": 4, "PatternLength": 1.0, "NumberOfSteps": 1},
                         {"Model": 5, "PatternLength": 1.0, "NumberOfSteps": 1, "StartArray": [POINTS, "p_f"],
-                         "VelocityArray": [POINTS, "p_vector"]}],
+                         "VelocityArray": [POINTS, "p_vector"]},
+                        {"Model": 6, "PatternLength": 1.0, "NumberOfSteps": 1}],
     "SurfaceGradient": [{"Array": [POINTS, "p_vector"]},
                         {"Array": [POINTS, "p_vector"], "HodgeDecomposition": 1}]}
 
@@ -108,7 +109,7 @@ OTHER_VALUES = {"Depth": [3, 5], "QuadratureDegree": [4], "SourcePointIds": [[5]
                 "ObservationArray": [[POINTS, "p_known"]],
                 "MaskArray": [[POINTS, "p_other_few"], ["CELLS", "c_few"]],
                 "FirstPointId": [7], "SourcePosition": [[0.0, -1.0, 0.0], [0.0, 0.0, 3.0]],
-                "InsideLabel": [0], "ReferenceLabel": [1, 0],
+                "ReactionU": ["u*(1-u)"], "ReactionV": ["0.5 - v", ""], "InsideLabel": [0], "ReferenceLabel": [1, 0],
                 "NormalStabilization": [0.5], "MaximumIterations": [2], "Tolerance": [1e-3]}
 ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end an iteration early
 # These filters start from the last solution. It changes the last digits and the report, not the solution.

@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 using namespace gridfem;
@@ -108,6 +110,84 @@ TEST(SurfaceDynamicsFilter, CarriesAlongItsVelocityAndKeepsTheIntegral)
   EXPECT_NEAR(FieldValue(filter->GetOutputDataObject(0), "Integral"), integral, 1e-6 * integral);
 }
 
+TEST(SurfaceDynamicsFilter, FormulasAreAsGoodAsNamedReactions)
+{
+  const auto state = [](int model, const char* name)
+  {
+    auto filter = MakeFilter(model, 2);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "xy");
+    filter->SetTolerance(1e-10);
+    filter->SetTimeStep(0.01);
+    filter->SetPatternLength(31.0 * 0.05);
+    filter->SetReactionU("0.037*(1 - u) - u*v^2");
+    filter->SetReactionV("u*v^2 - (0.037 + 0.06)*v");
+    filter->SetDiffusivity(0.0025);
+    filter->SetDiffusivityV(0.00125);
+    return StateAt(filter, 2, name);
+  };
+  for (const char* name : { "U", "V" })
+  {
+    const std::vector<double> named = state(vtkSurfaceDynamics::GrayScott, name);
+    const std::vector<double> formulas = state(vtkSurfaceDynamics::Custom, name);
+    ASSERT_EQ(formulas.size(), named.size());
+    for (std::size_t i = 0; i < named.size(); ++i)
+    {
+      ASSERT_NEAR(formulas[i], named[i], 1e-7) << name << i;
+    }
+  }
+}
+
+/// The default formulas are those of TuringSpots.
+TEST(SurfaceDynamicsFilter, TheDefaultFormulasGrowSpots)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Custom, 30);
+  filter->SetDepth(4);
+  filter->SetDiffusivity(0.02);
+  filter->SetDiffusivityV(0.8);
+  const std::vector<double> u = StateAt(filter, 30, "U");
+  EXPECT_GT(*std::max_element(u.begin(), u.end()), 2.0);
+  EXPECT_LT(*std::min_element(u.begin(), u.end()), 0.6);
+}
+
+TEST(SurfaceDynamicsFilter, OneFormulaIsOneUnknown)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Custom, 1);
+  filter->SetReactionU("if(u > 2, 1, -u)");
+  filter->SetReactionV("");
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("V"));
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("Integral")->GetNumberOfComponents(), 1);
+}
+
+TEST(SurfaceDynamicsFilter, TellsWhichFormulaCannotBeRead)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Custom, 1);
+  const Messages messages(filter);
+  const auto message = [&](const char* ofU, const char* ofV)
+  {
+    filter->SetReactionU(ofU);
+    filter->SetReactionV(ofV);
+    const std::size_t before = messages.errors.size();
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    EXPECT_EQ(messages.errors.size(), before + 1);
+    return messages.errors.empty() ? std::string() : messages.errors.back();
+  };
+  EXPECT_NE(message("u + w", "v")
+              .find("Reaction U 'u + w' cannot be read: Undefined symbol: 'w'. It "
+                    "is a formula of u and v"),
+    std::string::npos);
+  EXPECT_NE(message("u", "u ** v").find("Reaction V 'u ** v' cannot be read"), std::string::npos);
+  EXPECT_NE(
+    message("u*v", "").find("Undefined symbol: 'v'. It is a formula of u, such as u*(1-u)."),
+    std::string::npos);
+  EXPECT_NE(message("", "").find("Reaction U '' cannot be read"), std::string::npos);
+  EXPECT_NE(message("u*iHat", "").find("Reaction U 'u*iHat' cannot be read"), std::string::npos);
+  filter->SetReactionU("log(u - 100)"); // not a number anywhere
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("have left the range of numbers"), std::string::npos);
+}
+
 /// After each change the output is the output of a new filter with the same properties.
 TEST(SurfaceDynamicsFilter, NeverShowsAnOldResult)
 {
@@ -127,14 +207,30 @@ TEST(SurfaceDynamicsFilter, NeverShowsAnOldResult)
     { f->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "w"); },
     [](vtkSurfaceDynamics* f) { f->SetModel(vtkSurfaceDynamics::Transport); },
     [](vtkSurfaceDynamics* f) { f->SetDiffusivity(0.01); },
-    [](vtkSurfaceDynamics* f) { f->SetDepth(4); },
+    [](vtkSurfaceDynamics* f) { f->SetModel(vtkSurfaceDynamics::Custom); },
+    [](vtkSurfaceDynamics* f) { f->SetDiffusivity(0.02); },
+    [](vtkSurfaceDynamics* f) { f->SetReactionU("0.2 - u*v"); },
+    [](vtkSurfaceDynamics* f) { f->SetReactionV("u - v"); },
+    [](vtkSurfaceDynamics* f) { f->SetDiffusivityV(0.5); },
+    [](vtkSurfaceDynamics* f)
+    {
+      f->SetReactionV("");
+      f->SetReactionU("1 - u");
+    },
+    [](vtkSurfaceDynamics* f) { f->SetDepth(3); },
     [](vtkSurfaceDynamics* f) { f->SetNumberOfSteps(2); } };
-  auto filter = MakeFilter(vtkSurfaceDynamics::TuringSpots, 1);
+  const auto make = []
+  {
+    auto filter = MakeFilter(vtkSurfaceDynamics::TuringSpots, 1);
+    filter->SetDepth(4);
+    return filter;
+  };
+  auto filter = make();
   for (std::size_t last = 0; last < changes.size(); ++last)
   {
     changes[last](filter);
     filter->Update();
-    auto fresh = MakeFilter(vtkSurfaceDynamics::TuringSpots, 1);
+    auto fresh = make();
     for (std::size_t k = 0; k <= last; ++k)
     {
       changes[k](fresh);

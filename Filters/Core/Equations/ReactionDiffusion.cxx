@@ -68,8 +68,8 @@ void ReactionDiffusion::Start(MultiVector coefficients)
   now_ = std::move(coefficients);
   before_ = {};
   twoBefore_ = {};
+  explicitNow_ = {};
   explicitBefore_ = {};
-  ahead_ = {};
   extrapolationError_ = 0.0;
 }
 
@@ -86,12 +86,7 @@ ReactionDiffusion::Rates ReactionDiffusion::ExplicitPart(
     MultiVector atSamples(values.rows(), values.cols());
     ParallelRanges(values.rows(), job.threads,
       [&](Id begin, Id end)
-      {
-        for (Id row = begin; row < end; ++row)
-        {
-          terms_.react(values.row(row).data(), atSamples.row(row).data());
-        }
-      });
+      { terms_.react(values.row(begin).data(), atSamples.row(begin).data(), end - begin); });
     MultiplyAdd(samples_.integrals, atSamples, rates.load, job.threads);
   }
   if (terms_.carry)
@@ -161,27 +156,31 @@ double ReactionDiffusion::ErrorOf(const MultiVector& extrapolated, const Rates& 
 SolveReport ReactionDiffusion::Advance(const Job& job)
 {
   SolveReport report = SolveReport::Solved();
-  Rates atNow = this->ExplicitPart(now_, job);
+  if (explicitNow_.rows() == 0)
+  {
+    explicitNow_ = this->ExplicitPart(now_, job).load;
+  }
   MultiVector ahead;
   MultiVector next;
   if (before_.rows() == 0)
   {
-    next = this->FirstStep(atNow.load, report, job);
+    next = this->FirstStep(explicitNow_, report, job);
   }
   else
   {
-    ahead = 2.0 * atNow.load - explicitBefore_;
+    ahead = 2.0 * explicitNow_ - explicitBefore_;
     const MultiVector guess = twoBefore_.rows() == 0
                                 ? MultiVector(2.0 * now_ - before_)
                                 : MultiVector(3.0 * (now_ - before_) + twoBefore_);
     next = this->SolveSpecies((4.0 * now_ - before_) / 3.0, ahead, guess, report, job);
   }
-  extrapolationError_ = ahead_.rows() == 0 ? 0.0 : this->ErrorOf(ahead_, atNow);
+  Rates atNext = this->ExplicitPart(next, job);
+  extrapolationError_ = ahead.rows() == 0 ? 0.0 : this->ErrorOf(ahead, atNext);
   twoBefore_ = std::move(before_);
   before_ = std::move(now_);
   now_ = std::move(next);
-  explicitBefore_ = std::move(atNow.load);
-  ahead_ = std::move(ahead);
+  explicitBefore_ = std::move(explicitNow_);
+  explicitNow_ = std::move(atNext.load);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #define GridFEM_ReactionDiffusion_h
 
 #include "Equations/Evolution.h"
+#include "Equations/Reactions.h"
 
 #include <functional>
 #include <memory>
@@ -16,8 +17,7 @@ struct ReactionTerms
 {
   std::vector<double> diffusion; // D >= 0 of each species, squared units of length of the space
 
-  /// Computes the rates of one place from the values there; null: no reactions.
-  std::function<void(const double* u, double* rates)> react;
+  ReactionRates react; // null: no reactions
 
   /// Returns ∫ <u w, ∇b_i> for a velocity w; null: nothing is carried along. A species that is
   /// carried along needs a diffusion above 0.
@@ -75,8 +75,8 @@ private:
   MultiVector now_;
   MultiVector before_;         // one step ago; no rows before the first step
   MultiVector twoBefore_;      // two steps ago; no rows before the second step
+  MultiVector explicitNow_;    // ExplicitPart of now_; no rows at the start
   MultiVector explicitBefore_; // of before_
-  MultiVector ahead_;          // extrapolated for now_; no rows before the second step
   double extrapolationError_ = 0.0;
 };
 

@@ -15,6 +15,18 @@ double SmoothStep(double x, double width)
   return t * t * (3.0 - 2.0 * t);
 }
 
+template<int Species, class React>
+ReactionRates AtEachPlace(React react)
+{
+  return [react](const double* u, double* rates, Id places)
+  {
+    for (Id place = 0; place < places; ++place)
+    {
+      react(u + Species * place, rates + Species * place);
+    }
+  };
+}
+
 /// The state of rest of FitzHughNagumo(), by Newton's method.
 std::vector<double> RestOfFitzHughNagumo(double beta, double gamma)
 {
@@ -39,12 +51,13 @@ ReactionSystem SpotsOfTuring()
   system.step = 0.2;
   system.frame = 1.2;
   system.rest = { A + B, B / ((A + B) * (A + B)) };
-  system.react = [](const double* u, double* rates)
-  {
-    const double made = u[0] * u[0] * u[1];
-    rates[0] = A - u[0] + made;
-    rates[1] = B - made;
-  };
+  system.react = AtEachPlace<2>(
+    [](const double* u, double* rates)
+    {
+      const double made = u[0] * u[0] * u[1];
+      rates[0] = A - u[0] + made;
+      rates[1] = B - made;
+    });
   system.startOfNoise = [rest = system.rest](const double* normal, double* u)
   {
     u[0] = rest[0] + 0.3 * std::clamp(normal[0], -3.0, 3.0);
@@ -67,12 +80,13 @@ ReactionSystem GrayScott(double feed, double kill)
   system.frame = 40.0;
   system.functions = 12.0;
   system.rest = { 1.0, 0.0 };
-  system.react = [feed, kill](const double* u, double* rates)
-  {
-    const double made = u[0] * u[1] * u[1];
-    rates[0] = feed * (1.0 - u[0]) - made;
-    rates[1] = made - (feed + kill) * u[1];
-  };
+  system.react = AtEachPlace<2>(
+    [feed, kill](const double* u, double* rates)
+    {
+      const double made = u[0] * u[1] * u[1];
+      rates[0] = feed * (1.0 - u[0]) - made;
+      rates[1] = made - (feed + kill) * u[1];
+    });
   system.startOfDisturbance = [](double amount, double* u)
   {
     u[0] = 1.0 - 0.5 * amount;
@@ -96,11 +110,12 @@ ReactionSystem FitzHughNagumo()
   system.functions = 12.0;
   system.noiseLength = 4.0;
   system.rest = RestOfFitzHughNagumo(Beta, Gamma);
-  system.react = [](const double* u, double* rates)
-  {
-    rates[0] = u[0] - u[0] * u[0] * u[0] / 3.0 - u[1];
-    rates[1] = Slowness * (u[0] + Beta - Gamma * u[1]);
-  };
+  system.react = AtEachPlace<2>(
+    [](const double* u, double* rates)
+    {
+      rates[0] = u[0] - u[0] * u[0] * u[0] / 3.0 - u[1];
+      rates[1] = Slowness * (u[0] + Beta - Gamma * u[1]);
+    });
   // Waves break where the edge of an excited region meets the edge of a region that recovers.
   system.startOfNoise = [rest = system.rest](const double* normal, double* u)
   {
@@ -123,11 +138,53 @@ ReactionSystem AllenCahn()
   system.step = 0.2;
   system.frame = 0.4;
   system.rest = { -1.0 };
-  system.react = [](const double* u, double* rates) { rates[0] = u[0] - u[0] * u[0] * u[0]; };
+  system.react =
+    AtEachPlace<1>([](const double* u, double* rates) { rates[0] = u[0] - u[0] * u[0] * u[0]; });
   system.startOfNoise = [](const double* normal, double* u)
   { u[0] = 0.5 * std::clamp(normal[0], -2.0, 2.0); };
   system.startOfDisturbance = [](double amount, double* u) { u[0] = 2.0 * amount - 1.0; };
   return system;
+}
+
+double FastestResponse(
+  const ReactionRates& react, const std::vector<double>& low, const std::vector<double>& high)
+{
+  constexpr Id Steps = 16; // from low to high
+  const Id species = static_cast<Id>(low.size());
+  Id places = 1;
+  std::vector<double> step;
+  for (Id s = 0; s < species; ++s)
+  {
+    const double least = 1e-3 * std::max(1.0, std::abs(low[s]));
+    step.push_back(std::max(high[s] - low[s], least) / Steps);
+    places *= Steps + 1;
+  }
+  std::vector<double> u(static_cast<std::size_t>(places * species));
+  for (Id place = 0; place < places; ++place)
+  {
+    for (Id s = 0, stride = 1; s < species; ++s, stride *= Steps + 1)
+    {
+      u[place * species + s] = low[s] + double(place / stride % (Steps + 1)) * step[s];
+    }
+  }
+  std::vector<double> rates(u.size());
+  react(u.data(), rates.data(), places);
+
+  double fastest = 0.0;
+  for (Id place = 0; place < places; ++place)
+  {
+    for (Id row = 0; row < species; ++row)
+    {
+      double sum = 0.0;
+      for (Id s = 0, stride = 1; s < species; ++s, stride *= Steps + 1)
+      {
+        const Id other = place / stride % (Steps + 1) < Steps ? place + stride : place - stride;
+        sum += std::abs(rates[other * species + row] - rates[place * species + row]) / step[s];
+      }
+      fastest = std::isfinite(sum) ? std::max(fastest, sum) : fastest;
+    }
+  }
+  return fastest;
 }
 
 } // namespace gridfem

@@ -2,11 +2,17 @@
 #ifndef GridFEM_Reactions_h
 #define GridFEM_Reactions_h
 
+#include "Base/Types.h"
+
 #include <functional>
 #include <vector>
 
 namespace gridfem
 {
+
+/// Computes R(u) at several places. Both arrays have one number per species for each place, place
+/// by place. Several threads call it at the same time.
+using ReactionRates = std::function<void(const double* u, double* rates, Id places)>;
 
 /// A system du/dt = D Δu + R(u) of one or two species, in units of its own. Functions of one place
 /// read and write one number per species.
@@ -20,7 +26,7 @@ struct ReactionSystem
   double noiseLength = 1.0;      // wavelength of the noise at the start, in pattern lengths
   std::vector<double> rest;      // a state without reactions
 
-  std::function<void(const double* u, double* rates)> react; // R(u)
+  ReactionRates react;
 
   /// The start from two independent normal numbers.
   std::function<void(const double* normal, double* u)> startOfNoise;
@@ -49,6 +55,11 @@ ReactionSystem FitzHughNagumo();
 /// u' = D Δu + u - u³: two phases, -1 and 1, and fronts that move by their curvature. [Allen and
 /// Cahn: A microscopic theory for antiphase boundary motion, 1979]
 ReactionSystem AllenCahn();
+
+/// Returns how fast reactions answer to a change: the largest sum of a row of the matrix ∂R/∂u, for
+/// values from `low` to `high` of each species. Places where R is not finite do not count.
+double FastestResponse(
+  const ReactionRates& react, const std::vector<double>& low, const std::vector<double>& high);
 
 } // namespace gridfem
 

@@ -25,7 +25,8 @@ struct Pace
   double Step() const { return frame / substeps; }
 };
 
-Pace PaceOf(const DynamicsSolver::Options& options, double usualFrame, double longestStep)
+Pace PaceOf(
+  const DynamicsSolver::Options& options, double usualFrame, double longestStep, int refinement)
 {
   const double frame = options.timeStep > 0.0 ? options.timeStep : usualFrame;
   const double needed = std::ceil(frame / longestStep * (1.0 - 1e-12));
@@ -34,7 +35,7 @@ Pace PaceOf(const DynamicsSolver::Options& options, double usualFrame, double lo
     throw InvalidInput(
       "The Time Step needs more than a million steps of the solver. It must be shorter.");
   }
-  return { frame, std::max(1, int(needed)) };
+  return { frame, refinement * std::max(1, int(needed)) };
 }
 
 /// The longest step in which transport is explicit: a quarter of a cell, and short enough that the
@@ -46,7 +47,8 @@ double LongestStepOfTransport(double speed, double diffusion)
 }
 
 MadeEquation MakeTransport(const Surface& surface, const DynamicsSolver::Input& input,
-  const DynamicsSolver::Options& options, const EquationOptions& equation, const Job& job)
+  const DynamicsSolver::Options& options, const EquationOptions& equation, int refinement,
+  const Job& job)
 {
   const double unit = surface.Space().UnitLength();
   const double worldUnit = surface.LengthInWorldUnits(1.0);
@@ -62,15 +64,57 @@ MadeEquation MakeTransport(const Surface& surface, const DynamicsSolver::Input& 
     return MultiVector(space->LoadOfGradients(velocity, &u, ofCarry) / (unit * unit));
   };
   const Pace pace = PaceOf(options, 0.5 * surface.LengthInWorldUnits(options.patternLength) / speed,
-    LongestStepOfTransport(speed / unit, terms.diffusion[0]));
+    LongestStepOfTransport(speed / unit, terms.diffusion[0]), refinement);
   return { std::make_unique<ReactionDiffusion>(
              surface.WholeSpace(), std::move(terms), equation, pace.Step(), job),
     pace.frame, pace.substeps };
 }
 
+/// The given reactions in the units of the parameters. They start between 0 and 1.
+ReactionSystem CustomSystem(const DynamicsSolver::Options& options, const GivenReactions& reactions)
+{
+  ReactionSystem system;
+  system.diffusion = { options.diffusivity, options.diffusivityV };
+  system.diffusion.resize(static_cast<std::size_t>(reactions.species));
+  system.patternLength = options.patternLength;
+  system.frame = 1.0;
+  system.rest.assign(static_cast<std::size_t>(reactions.species), 0.0);
+  system.react = reactions.rates;
+  system.startOfNoise = [species = reactions.species](const double* normal, double* u)
+  {
+    for (int s = 0; s < species; ++s)
+    {
+      u[s] = 0.5 + std::clamp(normal[s], -3.0, 3.0) / 6.0;
+    }
+  };
+  system.startOfDisturbance = [species = reactions.species](double amount, double* u)
+  {
+    std::fill_n(u, species, 0.0);
+    u[0] = amount;
+  };
+  return system;
+}
+
+/// A step that resolves given reactions at the values of the start.
+double StepOfReactions(const Surface& surface, const DynamicsSolver::Input& input)
+{
+  std::vector<double> low(static_cast<std::size_t>(input.reactions.species), 0.0);
+  std::vector<double> high(low.size(), 1.0);
+  if (input.start)
+  {
+    const Field start = ReadField(surface, input.start);
+    for (Id s = 0; s < start.values.cols(); ++s)
+    {
+      low[static_cast<std::size_t>(s)] = start.values.col(s).minCoeff();
+      high[static_cast<std::size_t>(s)] = start.values.col(s).maxCoeff();
+    }
+  }
+  return 0.2 / FastestResponse(input.reactions.rates, low, high);
+}
+
 } // namespace
 
-ReactionSystem SystemOf(const DynamicsSolver::Options& options)
+ReactionSystem SystemOf(const DynamicsSolver::Options& options, const GivenReactions& reactions)
 {
   switch (options.model)
   {
@@ -80,26 +124,29 @@ ReactionSystem SystemOf(const DynamicsSolver::Options& options)
       return FitzHughNagumo();
     case Model::AllenCahn:
       return AllenCahn();
+    case Model::Custom:
+      return CustomSystem(options, reactions);
     default:
       return SpotsOfTuring();
   }
 }
 
-Id NumberOfUnknowns(const DynamicsSolver::Options& options)
+Id NumberOfUnknowns(const DynamicsSolver::Options& options, const GivenReactions& reactions)
 {
-  return options.model == Model::Wave        ? 2
-         : options.model == Model::Transport ? 1
-                                             : static_cast<Id>(SystemOf(options).Species());
+  return options.model == Model::Wave ? 2
+         : options.model == Model::Transport
+           ? 1
+           : static_cast<Id>(SystemOf(options, reactions).Species());
 }
 
-double FunctionsOfPattern(const DynamicsSolver::Options& options)
+double FunctionsOfPattern(const DynamicsSolver::Options& options, const GivenReactions& reactions)
 {
   constexpr double Usual = 6.0;
-  return IsReaction(options.model) ? SystemOf(options).functions : Usual;
+  return IsReaction(options.model) ? SystemOf(options, reactions).functions : Usual;
 }
 
 MadeEquation MakeEquation(const Surface& surface, const DynamicsSolver::Input& input,
-  const DynamicsSolver::Options& options, const Job& job)
+  const DynamicsSolver::Options& options, int refinement, const Job& job)
 {
   EquationOptions equation = options.equation;
   equation.multigrid.threads = surface.Threads();
@@ -107,16 +154,21 @@ MadeEquation MakeEquation(const Surface& surface, const DynamicsSolver::Input& i
   const double unit = surface.Space().UnitLength();
   if (options.model == Model::Transport)
   {
-    return MakeTransport(surface, input, options, equation, job);
+    return MakeTransport(surface, input, options, equation, refinement, job);
   }
   if (options.model == Model::Wave)
   {
-    const Pace pace = PaceOf(options, 0.5 * options.patternLength, 0.05 * options.patternLength);
+    const Pace pace =
+      PaceOf(options, 0.5 * options.patternLength, 0.05 * options.patternLength, refinement);
     const WaveTerms terms{ surface.LengthInWorldUnits(1.0) / unit, options.damping };
     return { std::make_unique<DampedWave>(surface.SharedSpace(), terms, equation, pace.Step(), job),
       pace.frame, pace.substeps };
   }
-  ReactionSystem system = SystemOf(options);
+  ReactionSystem system = SystemOf(options, input.reactions);
+  if (options.model == Model::Custom)
+  {
+    system.step = StepOfReactions(surface, input);
+  }
   const double scale =
     surface.LengthInWorldUnits(options.patternLength) / system.patternLength / unit;
   ReactionTerms terms{ system.diffusion, system.react, nullptr };
@@ -124,7 +176,7 @@ MadeEquation MakeEquation(const Surface& surface, const DynamicsSolver::Input& i
   {
     diffusion *= scale * scale;
   }
-  const Pace pace = PaceOf(options, system.frame, system.step);
+  const Pace pace = PaceOf(options, system.frame, system.step, refinement);
   return { std::make_unique<ReactionDiffusion>(
              surface.WholeSpace(), std::move(terms), equation, pace.Step(), job),
     pace.frame, pace.substeps };

@@ -16,14 +16,14 @@ inline bool IsReaction(DynamicsModel model)
   return model != DynamicsModel::Wave && model != DynamicsModel::Transport;
 }
 
-/// The reactions of a model that has some.
-ReactionSystem SystemOf(const DynamicsSolver::Options& options);
+/// The reactions of a model that has some. The given ones are those of Custom.
+ReactionSystem SystemOf(const DynamicsSolver::Options& options, const GivenReactions& reactions);
 
 /// The columns of a state.
-Id NumberOfUnknowns(const DynamicsSolver::Options& options);
+Id NumberOfUnknowns(const DynamicsSolver::Options& options, const GivenReactions& reactions);
 
 /// Functions per pattern length that resolve a result.
-double FunctionsOfPattern(const DynamicsSolver::Options& options);
+double FunctionsOfPattern(const DynamicsSolver::Options& options, const GivenReactions& reactions);
 
 struct MadeEquation
 {
@@ -32,9 +32,10 @@ struct MadeEquation
   int substeps; // from frame to frame, so that reactions and transport are resolved
 };
 
+/// @param refinement  makes this many steps of one usual step; >= 1
 /// Throws InvalidInput and Aborted.
 MadeEquation MakeEquation(const Surface& surface, const DynamicsSolver::Input& input,
-  const DynamicsSolver::Options& options, const Job& job);
+  const DynamicsSolver::Options& options, int refinement, const Job& job);
 
 } // namespace gridfem
 

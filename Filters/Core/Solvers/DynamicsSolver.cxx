@@ -20,6 +20,13 @@ namespace
 
 using Model = DynamicsModel;
 
+/// The largest error of a step that is accepted. The steps of the named models are known to be
+/// good.
+double AllowedError(Model model)
+{
+  return model == Model::Custom ? 0.02 : 0.05;
+}
+
 void RequireInput(const DynamicsSolver::Input& input, const DynamicsSolver::Options& options)
 {
   RequireOptions(options);
@@ -27,7 +34,11 @@ void RequireInput(const DynamicsSolver::Input& input, const DynamicsSolver::Opti
   {
     throw InvalidInput("Pattern Length is 0. It must be above 0.");
   }
-  const Id unknowns = NumberOfUnknowns(options);
+  if (options.model == Model::Custom && !input.reactions)
+  {
+    throw InvalidInput("The Model Custom needs a formula for Reaction U.");
+  }
+  const Id unknowns = NumberOfUnknowns(options, input.reactions);
   if (input.start.components > unknowns)
   {
     throw InvalidInput("Start Array '" + input.start.name + "' has " +
@@ -67,10 +78,10 @@ double UsualSide(const TriangleMesh& mesh)
 
 /// Points show a pattern that is three sides of a triangle long.
 std::vector<std::string> WarningsOfPatterns(
-  const Surface& surface, const DynamicsSolver::Options& options)
+  const Surface& surface, const DynamicsSolver::Options& options, const GivenReactions& reactions)
 {
   const double length = surface.LengthInWorldUnits(options.patternLength);
-  const double needed = FunctionsOfPattern(options);
+  const double needed = FunctionsOfPattern(options, reactions);
   const double spacing = std::sqrt(surface.Area() / double(surface.Space().NumberOfFunctions(0)));
   const double side = UsualSide(surface.Mesh());
   std::ostringstream text;
@@ -105,9 +116,10 @@ const DynamicsSolver::Result& DynamicsSolver::Update(
   surface.Prepare(job.progress.Part(0.0, 0.2));
   RequireFirstDegree(surface.UsedOptions().choice.kind, "Patterns and waves");
   tolerance_ = options.equation.solve.tolerance;
+  allowedError_ = AllowedError(options.model);
   this->UpdateEquation(surface, input, options, surface.MakeJob(job.progress.Part(0.2, 0.3)));
   this->UpdateStart(surface, input, options, surface.MakeJob(job.progress.Part(0.3, 0.35)));
-  this->MakeFrames(surface, options, surface.MakeJob(job.progress.Part(0.35, 1.0)));
+  this->MakeFrames(surface, input, options, surface.MakeJob(job.progress.Part(0.35, 1.0)));
   job.Check(1.0);
   return result_;
 }
@@ -124,17 +136,28 @@ void DynamicsSolver::UpdateEquation(
   {
     key.Add(KeyOf(input.velocity));
   }
+  if (options.model == Model::Custom)
+  {
+    key.Add(input.reactions.version).Add(KeyOf(input.start)); // they determine the step
+  }
   surface.GetStages().Run(HierarchyStage, key,
     [&]
     {
       result_.frames.clear(); // frees its memory first
       equation_.reset();
-      MadeEquation made = MakeEquation(surface, input, options, job);
-      equation_ = std::move(made.equation);
-      substeps_ = made.substeps;
-      result_.timeStep = made.frame;
-      result_.warnings = WarningsOfPatterns(surface, options);
+      this->RemakeEquation(surface, input, options, 1, job);
+      result_.warnings = WarningsOfPatterns(surface, options, input.reactions);
     });
+}
+
+void DynamicsSolver::RemakeEquation(const Surface& surface, const Input& input,
+  const Options& options, int refinement, const Job& job)
+{
+  MadeEquation made = MakeEquation(surface, input, options, refinement, job);
+  equation_ = std::move(made.equation);
+  refinement_ = refinement;
+  substeps_ = made.substeps;
+  result_.timeStep = made.frame;
 }
 
 void DynamicsSolver::UpdateStart(
@@ -142,6 +165,7 @@ void DynamicsSolver::UpdateStart(
 {
   StageKey key;
   key.Add(surface.GetStages().Version(SystemStage)).Add(options.model);
+  key.Add(NumberOfUnknowns(options, input.reactions));
   key.Add(surface.LengthInWorldUnits(options.patternLength));
   key.Add(KeyOf(input.start)).Add(KeyOf(input.disturbed)).Add(options.seed);
   surface.GetStages().Run(RightHandSideStage, key,
@@ -156,21 +180,41 @@ void DynamicsSolver::UpdateStart(
     });
 }
 
-/// Goes on to the next frame. After an abort it goes on from the last substep.
-DynamicsSolver::Frame DynamicsSolver::NextFrame(const Surface& surface, const Job& job)
+/// Goes on to the next frame, or until values have left the range of numbers. After an abort it
+/// goes on from the last substep.
+void DynamicsSolver::MakeSubsteps(const Job& job)
 {
   if (substepsMade_ == 0)
   {
     report_ = SolveReport::Solved();
+    errorOfFrame_ = 0.0;
+    frameStart_ = equation_->Coefficients();
   }
-  for (; substepsMade_ < substeps_; ++substepsMade_)
+  for (; substepsMade_ < substeps_ && report_.end != SolveEnd::NotFinite; ++substepsMade_)
   {
     const double share = 1.0 / substeps_;
     KeepWorse(
       equation_->Advance(job.Part(share * substepsMade_, share * (substepsMade_ + 1))), report_);
-    extrapolationError_ = std::max(extrapolationError_, equation_->ExtrapolationError());
+    errorOfFrame_ = std::max(errorOfFrame_, equation_->ExtrapolationError());
+  }
+}
+
+/// Makes the frame again with half the steps while they are too long.
+DynamicsSolver::Frame DynamicsSolver::NextFrame(
+  const Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  constexpr int FinestRefinement = 16;
+  this->MakeSubsteps(job);
+  while (refinement_ < FinestRefinement &&
+         (errorOfFrame_ > allowedError_ || report_.end == SolveEnd::NotFinite))
+  {
+    this->RemakeEquation(surface, input, options, 2 * refinement_, job.Part(0.0, 0.0));
+    equation_->Start(frameStart_);
+    substepsMade_ = 0;
+    this->MakeSubsteps(job);
   }
   substepsMade_ = 0;
+  extrapolationError_ = std::max(extrapolationError_, errorOfFrame_);
   return this->FrameNow(surface);
 }
 
@@ -190,7 +234,8 @@ DynamicsSolver::Frame DynamicsSolver::FrameNow(const Surface& surface) const
   return frame;
 }
 
-void DynamicsSolver::MakeFrames(const Surface& surface, const Options& options, const Job& job)
+void DynamicsSolver::MakeFrames(
+  const Surface& surface, const Input& input, const Options& options, const Job& job)
 {
   Stages& stages = surface.GetStages();
   std::vector<Frame>& frames = result_.frames;
@@ -200,6 +245,10 @@ void DynamicsSolver::MakeFrames(const Surface& surface, const Options& options, 
   {
     frames.clear();
     ofFrames_ = key;
+    if (refinement_ > 1)
+    {
+      this->RemakeEquation(surface, input, options, 1, job.Part(0.0, 0.1));
+    }
     equation_->Start(start_);
     substepsMade_ = 0;
     report_ = startReport_;
@@ -218,7 +267,9 @@ void DynamicsSolver::MakeFrames(const Surface& surface, const Options& options, 
     StageKey ofFrame = key;
     ofFrame.Add(static_cast<std::int64_t>(frames.size()));
     stages.Run(SolveStage, ofFrame,
-      [&] { frames.push_back(this->NextFrame(surface, job.Part(done, done + share))); });
+      [&] {
+        frames.push_back(this->NextFrame(surface, input, options, job.Part(done, done + share)));
+      });
   }
 }
 
@@ -237,7 +288,7 @@ std::vector<std::string> DynamicsSolver::Warnings(int frame) const
   {
     warnings.push_back(WarningOf(report, tolerance_));
   }
-  if (shown.extrapolationError > 0.1)
+  if (shown.extrapolationError > allowedError_)
   {
     std::ostringstream text;
     text << "Reactions or transport change so fast that a step of the solver is wrong by "

@@ -3,6 +3,7 @@
 #define GridFEM_DynamicsSolver_h
 
 #include "Equations/Evolution.h"
+#include "Equations/Reactions.h"
 #include "Solvers/GivenField.h"
 #include "Solvers/OptionFields.h"
 #include "Solvers/Surface.h"
@@ -22,8 +23,19 @@ enum class DynamicsModel
   GrayScott = 1,
   FitzHughNagumo = 2,
   AllenCahn = 3,
-  Wave = 4,     // u'' + Damping u' = Δu
-  Transport = 5 // u' + div(u w) = Diffusivity Δu with a given velocity w
+  Wave = 4,      // u'' + Damping u' = Δu
+  Transport = 5, // u' + div(u w) = Diffusivity Δu with a given velocity w
+  Custom = 6     // u' = Diffusivity Δu + R(u, v) and v' = DiffusivityV Δv + S(u, v), or u alone
+};
+
+/// Reactions of one or two species, or none.
+struct GivenReactions
+{
+  explicit operator bool() const { return species > 0; }
+
+  int species = 0; // 0: none are given
+  StageKey version;
+  ReactionRates rates;
 };
 
 /// Solves an equation in time from a given or a random start. It keeps the frames: more frames of
@@ -42,16 +54,18 @@ public:
     /// unit of time for one parameter unit of length.
     double timeStep = 0.0;
     int seed = 1;
-    double feed = 0.037;       // of Gray-Scott
-    double kill = 0.06;        // of Gray-Scott
-    double damping = 0.0;      // of the wave, per unit of time
-    double diffusivity = 1e-4; // of the transport, squared parameter units per time, above 0
+    double feed = 0.037;  // of Gray-Scott
+    double kill = 0.06;   // of Gray-Scott
+    double damping = 0.0; // of the wave, per unit of time
+    /// Of Transport, above 0, and of u with Custom; squared parameter units per time.
+    double diffusivity = 1e-4;
+    double diffusivityV = 4e-3; // of v with Custom; squared parameter units per time
 
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
     {
       visit(self.equation);
-      visit("Model", self.model, Within(0, 5));
+      visit("Model", self.model, Within(0, 6));
       visit("PatternLength", self.patternLength, AtLeast(0.0));
       visit("NumberOfSteps", self.numberOfSteps, Within(1, 100000));
       visit("TimeStep", self.timeStep, AtLeast(0.0));
@@ -60,6 +74,7 @@ public:
       visit("Kill", self.kill, Within(0.0, 1.0));
       visit("Damping", self.damping, AtLeast(0.0));
       visit("Diffusivity", self.diffusivity, AtLeast(0.0));
+      visit("DiffusivityV", self.diffusivityV, AtLeast(0.0));
     }
   };
 
@@ -69,7 +84,8 @@ public:
     GivenField start;
     /// Points that are disturbed at time 0, where no start is given. Their values do not count.
     GivenConstraints disturbed;
-    GivenField velocity; // of the transport, world units of length per time; three components
+    GivenField velocity;      // of the transport, world units of length per time; three components
+    GivenReactions reactions; // of Custom
   };
 
   struct Frame
@@ -108,21 +124,30 @@ public:
 private:
   void UpdateEquation(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
+  void RemakeEquation(const Surface& surface, const Input& input, const Options& options,
+    int refinement, const Job& job);
   void UpdateStart(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
-  void MakeFrames(const Surface& surface, const Options& options, const Job& job);
-  Frame NextFrame(const Surface& surface, const Job& job);
+  void MakeFrames(
+    const Surface& surface, const Input& input, const Options& options, const Job& job);
+  Frame NextFrame(
+    const Surface& surface, const Input& input, const Options& options, const Job& job);
+  void MakeSubsteps(const Job& job);
   Frame FrameNow(const Surface& surface) const;
 
   std::unique_ptr<Evolution> equation_;
-  int substeps_ = 1; // from frame to frame
+  int refinement_ = 1; // of the usual steps
+  int substeps_ = 1;   // from frame to frame
   MultiVector start_;
   SolveReport startReport_; // of its projection
   StageKey ofFrames_;
+  MultiVector frameStart_;          // the coefficients of the last frame
   int substepsMade_ = 0;            // since the last frame; more than 0 after an abort
   SolveReport report_;              // of the worst of them
+  double errorOfFrame_ = 0.0;       // the largest extrapolation error of these
   double extrapolationError_ = 0.0; // the largest since the start
-  double tolerance_ = 0.0;
+  double tolerance_ = 0.0;          // of the last update
+  double allowedError_ = 0.0;       // of the last update
   Result result_;
 };
 

@@ -116,14 +116,15 @@ Eigen::VectorXd BumpAround(
 }
 
 /// The given start at points. Unknowns without a component are at rest.
-Field CompletedStart(
-  const Surface& surface, const GivenField& start, const DynamicsSolver::Options& options)
+Field CompletedStart(const Surface& surface, const DynamicsSolver::Input& input,
+  const DynamicsSolver::Options& options)
 {
-  Field field = ReadField(surface, start);
+  Field field = ReadField(surface, input.start);
   const Id given = field.values.cols();
-  const std::vector<double> rest =
-    IsReaction(options.model) ? SystemOf(options).rest : std::vector<double>(2, 0.0);
-  field.values.conservativeResize(Eigen::NoChange, NumberOfUnknowns(options));
+  const std::vector<double> rest = IsReaction(options.model)
+                                     ? SystemOf(options, input.reactions).rest
+                                     : std::vector<double>(2, 0.0);
+  field.values.conservativeResize(Eigen::NoChange, NumberOfUnknowns(options, input.reactions));
   for (Id c = given; c < field.values.cols(); ++c)
   {
     field.values.col(c).setConstant(rest[static_cast<std::size_t>(c)]);
@@ -132,15 +133,15 @@ Field CompletedStart(
 }
 
 /// The system at rest where the bump is 0, and disturbed where it is 1. A wave has height 1.
-void Disturb(
-  const Eigen::VectorXd& bump, const DynamicsSolver::Options& options, MultiVector& values)
+void Disturb(const Eigen::VectorXd& bump, const DynamicsSolver::Input& input,
+  const DynamicsSolver::Options& options, MultiVector& values)
 {
   if (!IsReaction(options.model))
   {
     values.col(0) = bump;
     return;
   }
-  const ReactionSystem system = SystemOf(options);
+  const ReactionSystem system = SystemOf(options, input.reactions);
   for (Id point = 0; point < values.rows(); ++point)
   {
     system.startOfDisturbance(bump[point], values.row(point).data());
@@ -154,24 +155,27 @@ Field StartField(const Surface& surface, const DynamicsSolver::Input& input,
 {
   if (input.start)
   {
-    return CompletedStart(surface, input.start, options);
+    return CompletedStart(surface, input, options);
   }
   const TriangleMesh& mesh = surface.Mesh();
   const double length = surface.LengthInWorldUnits(options.patternLength);
   const auto seed = static_cast<std::uint64_t>(options.seed);
   Field field;
-  field.values.setZero(static_cast<Id>(mesh.points.size()), NumberOfUnknowns(options));
+  field.values.setZero(
+    static_cast<Id>(mesh.points.size()), NumberOfUnknowns(options, input.reactions));
   if (input.disturbed)
   {
-    Disturb(BumpAround(surface, input.disturbed.find().points, length, job), options, field.values);
+    Disturb(BumpAround(surface, input.disturbed.find().points, length, job), input, options,
+      field.values);
     return field;
   }
   if (!IsReaction(options.model))
   {
-    Disturb(BumpAround(surface, { SomePoint(surface, seed) }, length, job), options, field.values);
+    Disturb(
+      BumpAround(surface, { SomePoint(surface, seed) }, length, job), input, options, field.values);
     return field;
   }
-  const ReactionSystem system = SystemOf(options);
+  const ReactionSystem system = SystemOf(options, input.reactions);
   // Longer noise could leave the whole surface in one state, without an edge between two states.
   const double wavelength = std::min(length * system.noiseLength, 0.5 * std::sqrt(surface.Area()));
   const MultiVector noise = SmoothNoise(mesh, wavelength, seed, job);

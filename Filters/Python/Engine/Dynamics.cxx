@@ -13,6 +13,7 @@ Results DynamicsResults(const Given& given, const SurfaceOptions& surface,
   DynamicsSolver::Input input;
   input.start = given.Field("start");
   input.velocity = given.Field("velocity");
+  input.reactions = given.reactions;
   DynamicsSolver::Result result = DynamicsSolver::Solve(given.mesh, input, options, surface, job);
   Results results;
   results.arrays["State"] = std::move(result.frames.back().atPoints);

@@ -4,6 +4,7 @@
 
 #include "Properties.h"
 
+#include "Solvers/DynamicsSolver.h"
 #include "Solvers/GivenField.h"
 
 #include <map>
@@ -30,6 +31,7 @@ struct Given
   std::map<std::string, GivenArray> arrays;
   std::vector<Id> sources;      // points
   std::vector<double> observed; // values at the sources, or none
+  GivenReactions reactions;     // or none
 
   /// @param cells  a row of ids of points for each cell, `corners` in each
   /// @param weldCoincidentPoints  joins seams (JoinSeams); cells with hanging nodes get more

@@ -12,6 +12,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 
@@ -78,6 +79,37 @@ std::vector<Vec3> VectorsOf(const Points& points)
   return vectors;
 }
 
+/// Returns reactions that a function of Python computes: from a row of values for each place to a
+/// row of rates. Several threads may call them.
+GivenReactions ReactionsOf(const py::object& function, int species)
+{
+  GivenReactions reactions;
+  if (function.is_none())
+  {
+    return reactions;
+  }
+  const std::shared_ptr<const py::object> kept(new py::object(function),
+    [](const py::object* object)
+    {
+      const py::gil_scoped_acquire python;
+      delete object;
+    });
+  reactions.species = species;
+  reactions.rates = [kept, species](const double* u, double* rates, Id places)
+  {
+    const py::gil_scoped_acquire python;
+    const std::vector<py::ssize_t> shape = { places, species };
+    const auto result = (*kept)(Points(shape, u)).cast<Points>();
+    if (result.ndim() != 2 || result.shape(0) != places || result.shape(1) != species)
+    {
+      throw InvalidInput(
+        "the function of reactions must return an array of the shape it is given.");
+    }
+    std::copy_n(result.data(), result.size(), rates);
+  };
+  return reactions;
+}
+
 Results SolveAlone(const Problem& problem, const Given& given)
 {
   const py::gil_scoped_release others;
@@ -89,7 +121,7 @@ Results SolveAlone(const Problem& problem, const Given& given)
 
 py::tuple Solve(const std::string& name, const Points& points, const Cells& cells,
   const Arrays& arrays, const Numbers& numbers, const std::vector<Id>& sources,
-  const std::vector<double>& observed)
+  const std::vector<double>& observed, const py::object& reactions, int species)
 {
   Properties properties(name, numbers);
   const std::unique_ptr<Problem> problem = Problems.at(name)(properties);
@@ -108,6 +140,7 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   }
   given.sources = sources;
   given.observed = observed;
+  given.reactions = ReactionsOf(reactions, species);
   try
   {
     const Results results = SolveAlone(*problem, given);
@@ -148,7 +181,8 @@ PYBIND11_MODULE(_core, module)
     "Solves the problem of a filter's name: arrays and warnings.\n\n"
     "arrays: per name a matrix and whether its rows are points, else they are cells.",
     py::arg("name"), py::arg("points"), py::arg("cells"), py::arg("arrays"), py::arg("properties"),
-    py::arg("sources"), py::arg("observed"));
+    py::arg("sources"), py::arg("observed"), py::arg("reactions") = py::none(),
+    py::arg("species") = 0);
   module.def("triangulate", &Triangulate, "The triangles of a polygon, by its corners.");
   module.def("properties", &KnownProperties, "Per property its default and its range.");
 }

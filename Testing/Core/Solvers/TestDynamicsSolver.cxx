@@ -85,6 +85,22 @@ double LargestDifference(const MultiVector& a, const MultiVector& b)
   return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
+/// Reactions of one place as those that a user gives.
+template<class React>
+GivenReactions Given(int species, React react)
+{
+  GivenReactions reactions;
+  reactions.species = species;
+  reactions.rates = [species, react](const double* u, double* rates, Id places)
+  {
+    for (Id place = 0; place < places; ++place)
+    {
+      react(u + species * place, rates + species * place);
+    }
+  };
+  return reactions;
+}
+
 double Harmonic2(const Vec3& p)
 {
   return p[0] * p[1];
@@ -534,20 +550,162 @@ TEST(DynamicsSolver, TellsWhatIsWrong)
   EXPECT_EQ(message({}, DynamicsModel::TuringSpots, 0.1).find("The Pattern Length is only "), 0u);
 }
 
-/// So far from its usual values, Gray-Scott is faster than a step.
-TEST(DynamicsSolver, TellsOfStepsThatAreTooLong)
+TEST(DynamicsSolver, GivenReactionsAreAsGoodAsNamedOnes)
+{
+  const Mesh mesh = Shared(GeodesicSphere(12));
+  auto options = Of(DynamicsModel::TuringSpots, 0.05, 16);
+  options.patternLength = 12.1 * 0.05;
+  auto input = From(mesh, 2, [](const Vec3& p, int c) { return c == 0 ? 1.0 + 0.3 * p[0] : 0.9; });
+  const auto named = DynamicsSolver::Solve(mesh, input, options, InWorld(5));
+  options.model = DynamicsModel::Custom;
+  options.diffusivity = 0.05 * 0.05;
+  options.diffusivityV = 40.0 * options.diffusivity;
+  input.reactions = Given(2,
+    [](const double* u, double* rates)
+    {
+      rates[0] = 0.1 - u[0] + u[0] * u[0] * u[1];
+      rates[1] = 0.9 - u[0] * u[0] * u[1];
+    });
+  const auto given = DynamicsSolver::Solve(mesh, input, options, InWorld(5));
+  ASSERT_EQ(given.frames.size(), named.frames.size());
+  EXPECT_GT(LargestDifference(named.frames[16].atPoints, named.frames[0].atPoints), 0.1);
+  EXPECT_LT(LargestDifference(given.frames[16].atPoints, named.frames[16].atPoints), 1e-9);
+}
+
+/// A wave of Fisher's equation u' = u'' + u (1 - u) that Ablowitz and Zeppetella know exactly. It
+/// runs at the speed 5/√6.
+TEST(DynamicsSolver, AnInvasionRunsAtItsSpeed)
+{
+  const Mesh mesh = Shared(FlatRectangle(96, 8, 48.0, 4.0));
+  const auto wave = [](double t)
+  {
+    return [t](const Vec3& p, int)
+    {
+      return std::pow(
+        1.0 + std::exp((p[0] - 12.0 - 5.0 / std::sqrt(6.0) * t) / std::sqrt(6.0)), -2.0);
+    };
+  };
+  for (const FunctionKind kind : { FunctionKind::Grid, FunctionKind::Hats })
+  {
+    auto options = Of(DynamicsModel::Custom, 1.0, 6);
+    options.patternLength = 10.0;
+    options.diffusivity = 1.0;
+    auto input = From(mesh, 1, wave(0.0));
+    input.reactions =
+      Given(1, [](const double* u, double* rates) { rates[0] = u[0] * (1.0 - u[0]); });
+    const auto result = DynamicsSolver::Solve(mesh, input, options, InWorld(7, kind));
+    for (std::size_t k = 0; k < result.frames.size(); ++k)
+    {
+      const auto exact = From(mesh, 1, wave(double(k))).start.read(NaNs::Refused).values;
+      EXPECT_LT(LargestDifference(result.frames[k].atPoints, exact), 0.02) << k;
+    }
+  }
+}
+
+/// Without an edge in the start everything grows as u' = r u (1 - u) does. A rate of a thousand
+/// takes steps of less than a thousandth.
+TEST(DynamicsSolver, ResolvesGivenReactionsByItself)
+{
+  const Mesh mesh = Shared(GeodesicSphere(6));
+  for (const double r : { 0.5, 1000.0 })
+  {
+    auto options = Of(DynamicsModel::Custom, 3.0 / r, 2);
+    options.patternLength = 2.0;
+    auto input = From(mesh, 1, [](const Vec3&, int) { return 0.2; });
+    input.reactions =
+      Given(1, [r](const double* u, double* rates) { rates[0] = r * u[0] * (1.0 - u[0]); });
+    const auto result = DynamicsSolver::Solve(mesh, input, options, InWorld(3));
+    EXPECT_TRUE(result.warnings.empty());
+    for (int k = 0; k <= 2; ++k)
+    {
+      const double exact = 1.0 / (1.0 + 4.0 * std::exp(-3.0 * k));
+      const MultiVector& u = result.frames[static_cast<std::size_t>(k)].atPoints;
+      EXPECT_NEAR(u.minCoeff<Eigen::PropagateNaN>(), exact, 0.02) << r << " " << k;
+      EXPECT_NEAR(u.maxCoeff<Eigen::PropagateNaN>(), exact, 0.02) << r << " " << k;
+    }
+  }
+}
+
+TEST(DynamicsSolver, RunsAgainWhenGivenReactionsChange)
+{
+  const Mesh mesh = Shared(GeodesicSphere(6));
+  Stages stages;
+  LocalSurface surface(stages, mesh, InWorld(3));
+  DynamicsSolver solver;
+  auto options = Of(DynamicsModel::Custom, 1.0, 1);
+  options.patternLength = 2.0;
+  DynamicsSolver::Input input;
+  const auto decay = [&](double rate)
+  {
+    input.reactions = Given(1, [rate](const double* u, double* rates) { rates[0] = -rate * u[0]; });
+    input.reactions.version.Add(rate);
+    return MultiVector(solver.Update(surface, input, options).frames[1].atPoints);
+  };
+  const MultiVector slow = decay(0.1);
+  const MultiVector fast = decay(1.0);
+  EXPECT_NEAR(fast.sum() / slow.sum(), std::exp(-0.9), 0.02);
+  EXPECT_EQ(decay(0.1), slow);
+  input.reactions = {};
+  EXPECT_THROW(solver.Update(surface, input, options), InvalidInput);
+}
+
+TEST(Reactions, ThoseOfALinearSystemRespondByItsRows)
+{
+  const auto linear = Given(2,
+    [](const double* u, double* rates)
+    {
+      rates[0] = 3.0 * u[0] - 2.0 * u[1];
+      rates[1] = std::log(u[0]) * 0.0 + u[1]; // not finite at 0
+    });
+  EXPECT_NEAR(FastestResponse(linear.rates, { 0.0, 0.0 }, { 1.0, 1.0 }), 5.0, 1e-9);
+  EXPECT_NEAR(FastestResponse(linear.rates, { 2.0, 5.0 }, { 2.0, 5.0 }), 5.0, 1e-6);
+  const auto constant = Given(1, [](const double*, double* rates) { rates[0] = 7.0; });
+  EXPECT_EQ(FastestResponse(constant.rates, { -1.0 }, { 1.0 }), 0.0);
+}
+
+/// So far from its usual values, Gray-Scott is faster than its usual step.
+TEST(DynamicsSolver, ShortensStepsThatAreTooLong)
 {
   const Mesh mesh = Shared(GeodesicSphere(8));
-  for (const double v : { 0.1, 0.9 })
+  auto options = Of(DynamicsModel::GrayScott, 8.0, 3);
+  options.patternLength = 2.0;
+  auto fine = Of(DynamicsModel::GrayScott, 8.0, 3, 64);
+  fine.patternLength = 2.0;
+  const auto input = From(mesh, 2, [](const Vec3&, int c) { return c == 0 ? 1.0 : 0.9; });
+  Stages stages;
+  LocalSurface surface(stages, mesh, InWorld(4));
+  DynamicsSolver solver;
+  const DynamicsSolver::Result first = solver.Update(surface, input, options);
+  EXPECT_TRUE(solver.Warnings(3).empty());
+  const auto exact = Every(64, DynamicsSolver::Solve(mesh, input, fine, InWorld(4)));
+  for (std::size_t k = 0; k <= 3; ++k)
   {
-    auto options = Of(DynamicsModel::GrayScott, 8.0, 1);
-    options.patternLength = 2.0;
-    const auto input = From(mesh, 2, [v](const Vec3&, int c) { return c == 0 ? 1.0 : v; });
-    const auto warnings = DynamicsSolver::Solve(mesh, input, options, InWorld(4)).warnings;
-    ASSERT_EQ(warnings.size(), v > 0.5 ? 1u : 0u);
-    EXPECT_TRUE(
-      warnings.empty() || warnings[0].find("A shorter Time Step is") != std::string::npos);
+    EXPECT_LT(LargestDifference(first.frames[k].atPoints, exact.frames[k].atPoints), 0.03) << k;
   }
+  // Another start begins with the usual steps, as that of a new solver does.
+  auto calm = From(mesh, 2, [](const Vec3&, int c) { return c == 0 ? 1.0 : 0.1; });
+  calm.start.version.Add(1);
+  EXPECT_EQ(solver.Update(surface, calm, options).frames[3].atPoints,
+    DynamicsSolver::Solve(mesh, calm, options, InWorld(4)).frames[3].atPoints);
+  EXPECT_EQ(solver.Update(surface, input, options).frames[3].atPoints, first.frames[3].atPoints);
+}
+
+/// u' = u² is u = 1 / (1 - t), which ends at the time 1.
+TEST(DynamicsSolver, TellsOfReactionsWithoutEnd)
+{
+  const Mesh mesh = Shared(GeodesicSphere(6));
+  auto options = Of(DynamicsModel::Custom, 0.4, 4);
+  options.patternLength = 2.0;
+  auto input = From(mesh, 1, [](const Vec3&, int) { return 1.0; });
+  input.reactions = Given(1, [](const double* u, double* rates) { rates[0] = u[0] * u[0]; });
+  Stages stages;
+  LocalSurface surface(stages, mesh, InWorld(3));
+  DynamicsSolver solver;
+  const auto& result = solver.Update(surface, input, options);
+  EXPECT_NEAR(1.0 - 1.0 / result.frames[1].atPoints.maxCoeff<Eigen::PropagateNaN>(), 0.4, 0.02);
+  EXPECT_NEAR(1.0 - 1.0 / result.frames[2].atPoints.maxCoeff<Eigen::PropagateNaN>(), 0.8, 0.04);
+  EXPECT_TRUE(solver.Warnings(2).empty());
+  ASSERT_EQ(solver.Warnings(4).size(), 1u);
 }
 
 TEST(DynamicsSolver, TellsOfValuesOutOfTheRangeOfNumbers)
