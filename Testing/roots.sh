@@ -48,12 +48,16 @@ MakeRoot()
   printf '%s\n' "${missing[@]}" >> "$ROOT/made"
 }
 
-# Runs a command in the root. Its mounts end with it.
+# Runs a command in the root, with the folder of real meshes, if there is one. Its mounts end with it.
 InRoot()
 {
-  ROOT="$ROOT" SOURCE="$SOURCE" unshare --mount bash -euc '
+  ROOT="$ROOT" SOURCE="$SOURCE" MESHES="${GRIDFEM_DATA_DIR:-$SOURCE/../shared/data}" unshare --mount bash -euc '
     mkdir -p "$ROOT$SOURCE"
     mount --bind "$SOURCE" "$ROOT$SOURCE"
+    if [ -d "$MESHES" ]; then
+      mkdir -p "$ROOT$MESHES"
+      mount --bind "$MESHES" "$ROOT$MESHES"
+    fi
     mount -t proc proc "$ROOT/proc"
     mount --rbind /dev "$ROOT/dev"
     mount --rbind /sys "$ROOT/sys"
