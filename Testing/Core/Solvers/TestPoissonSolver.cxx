@@ -350,6 +350,29 @@ TEST(PoissonSolver, AWantedErrorChoosesTheDepth)
   EXPECT_LT(surface.UsedOptions().space.depth, 8);
 }
 
+/// Two levels cannot confirm an error. One that is not trusted may be eight times larger.
+TEST(PoissonSolver, AWantedErrorOnHatsNeedsAMarginWhereNothingConfirmsIt)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  PoissonSolver::Input input;
+  input.values = GivenField::Of("z", Height(*mesh));
+  SurfaceOptions hats;
+  hats.choice.kind = FunctionKind::Hats;
+  PoissonSolver::Options options;
+  options.screeningWeight = 10.0;
+  const double error = PoissonSolver::Solve(mesh, input, options, hats).accuracy.discretization;
+  for (const double margin : { 1.1, 7.0, 9.0 })
+  {
+    options.wantedError = margin * error;
+    const PoissonSolver::Result result = PoissonSolver::Solve(mesh, input, options, hats);
+    EXPECT_FALSE(result.accuracy.isTrusted);
+    EXPECT_EQ(result.isAccurate, margin > 8.0) << margin;
+    EXPECT_EQ(result.warnings.size(), margin > 8.0 ? 0u : 1u) << margin;
+    EXPECT_EQ(Joined(result.warnings).find("coarser grids do not confirm it") != std::string::npos,
+      margin < 8.0);
+  }
+}
+
 TEST(PoissonSolver, RefusesFieldsThatDoNotFit)
 {
   const auto mesh = Bowl();
