@@ -302,6 +302,8 @@ def dynamics(points, cells, model, length=0.1, steps=20, start=None, velocity=No
     call.
     """
     formulas = (reactions,) if isinstance(reactions, str) else tuple(reactions or ())
+    if len(formulas) == 2 and not str(formulas[1]).strip():
+        formulas = formulas[:1]
     if (model in ("Custom", 6)) != (0 < len(formulas) < 3):
         raise Error("Custom takes one or two reactions, and the other models take none.")
     return _solve("SurfaceDynamics", points, cells, {"start": start, "velocity": velocity},

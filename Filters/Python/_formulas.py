@@ -1,6 +1,7 @@
 """Reads formulas of reactions, and computes them for arrays of numpy. The filters have a parser of VTK."""
 
 import ast
+import functools
 import re
 
 import numpy
@@ -9,16 +10,19 @@ from ._inputs import Error
 
 _OPERATORS = {
     ast.Add: numpy.add, ast.Sub: numpy.subtract, ast.Mult: numpy.multiply, ast.Div: numpy.divide,
-    ast.Pow: numpy.power, ast.UAdd: numpy.positive, ast.USub: numpy.negative, ast.Not: numpy.logical_not,
-    ast.And: numpy.logical_and, ast.Or: numpy.logical_or, ast.Eq: numpy.equal, ast.NotEq: numpy.not_equal,
-    ast.Lt: numpy.less, ast.LtE: numpy.less_equal, ast.Gt: numpy.greater, ast.GtE: numpy.greater_equal}
+    ast.Pow: numpy.power, ast.UAdd: numpy.positive, ast.USub: numpy.negative, ast.And: numpy.logical_and,
+    ast.Or: numpy.logical_or, ast.Eq: numpy.equal, ast.NotEq: numpy.not_equal, ast.Lt: numpy.less,
+    ast.LtE: numpy.less_equal, ast.Gt: numpy.greater, ast.GtE: numpy.greater_equal}
 
-# Functions by their names, with the least and the largest number of their arguments.
+# Functions by the number of their arguments. Those of "many" take two or more.
 _FUNCTIONS = {
-    "if_": (numpy.where, 3, 3), "min": (numpy.minimum, 2, 9), "max": (numpy.maximum, 2, 9),
-    "ln": (numpy.log, 1, 1), **{name: (getattr(numpy, name), 1, 1) for name in (
-        "abs", "ceil", "cos", "cosh", "exp", "floor", "log", "log10", "sign", "sin", "sinh", "sqrt", "tan",
-        "tanh")}}
+    1: {"ln": numpy.log, "asin": numpy.arcsin, "acos": numpy.arccos, "atan": numpy.arctan,
+        **{name: getattr(numpy, name) for name in (
+            "abs", "ceil", "cos", "cosh", "exp", "floor", "log", "log10", "sign", "sin", "sinh", "sqrt",
+            "tan", "tanh")}},
+    2: {"pow": numpy.power},
+    3: {"if_": numpy.where},
+    "many": {"min": numpy.minimum, "max": numpy.maximum}}
 
 
 class _Unreadable(Exception):
@@ -26,19 +30,16 @@ class _Unreadable(Exception):
 
 
 def _call(node, variables):
-    name = node.func.id if isinstance(node.func, ast.Name) else ""
-    if name not in _FUNCTIONS or node.keywords:
-        raise _Unreadable(f"Undefined symbol: '{name}'")
-    function, least, most = _FUNCTIONS[name]
+    name = getattr(node.func, "id", "")
     arguments = [_value(argument, variables) for argument in node.args]
-    if not least <= len(arguments) <= most:
-        raise _Unreadable(f"wrong number of arguments of {name.rstrip('_')}")
-    if most == 9:
-        result = arguments[0]
-        for argument in arguments[1:]:
-            result = function(result, argument)
-        return result
-    return function(*arguments)
+    if name in _FUNCTIONS["many"] and len(arguments) > 1:
+        return functools.reduce(_FUNCTIONS["many"][name], arguments)
+    if name in _FUNCTIONS.get(len(arguments), ()) and not node.keywords:
+        return _FUNCTIONS[len(arguments)][name](*arguments)
+    if any(name in functions for functions in _FUNCTIONS.values()):
+        raise _Unreadable(f"{name.rstrip('_')} has too few or too many arguments")
+    raise _Unreadable(f"Undefined symbol: '{name}'" if name not in variables
+                      else f"'*' is missing behind '{name}'")
 
 
 def _value(node, variables):
@@ -51,22 +52,36 @@ def _value(node, variables):
         return variables[node.id]
     if isinstance(node, ast.Call):
         return _call(node, variables)
-    parts = {ast.UnaryOp: lambda: (node.op, node.operand), ast.BinOp: lambda: (node.op, node.left, node.right),
-             ast.BoolOp: lambda: (node.op, *node.values),
-             ast.Compare: lambda: (node.ops[0], node.left, *node.comparators)}.get(type(node), tuple)()
-    if len(parts) not in (2, 3) or type(parts[0]) not in _OPERATORS:
-        raise _Unreadable("it has a part that is no operator, function or number")
-    result = _OPERATORS[type(parts[0])](*(_value(part, variables) for part in parts[1:]))
+    if isinstance(node, ast.UnaryOp):
+        operator, parts = node.op, [node.operand]
+    elif isinstance(node, ast.BinOp):
+        operator, parts = node.op, [node.left, node.right]
+    elif isinstance(node, ast.BoolOp):
+        operator, parts = node.op, node.values
+    elif isinstance(node, ast.Compare) and len(node.ops) == 1:
+        operator, parts = node.ops[0], [node.left, node.comparators[0]]
+    else:
+        operator, parts = None, []
+    if type(operator) not in _OPERATORS:
+        raise _Unreadable("Syntax error")
+    values = [_value(part, variables) for part in parts]
+    function = _OPERATORS[type(operator)]
+    result = function(*values) if len(values) == 1 else functools.reduce(function, values)
     return result.astype(float) if result.dtype == bool else result
 
 
 def _read(name, formula, variables):
     """Returns the parsed formula. Raises Error if it cannot be read."""
+    if not isinstance(formula, str):
+        raise Error(f"{name} is {formula!r}. It must be a text.")
+    if not formula.strip():
+        raise Error(f"The Model Custom needs a formula for {name}.")
+    text = re.sub(r"\bif\s*\(", "if_(", formula).replace("**", "* *").replace("^", "**")
     try:
-        text = re.sub(r"\bif\s*\(", "if_(", formula).replace("**", "* *").replace("^", "**")
-        parsed = ast.parse(text.strip(), mode="eval").body
-        _value(parsed, {variable: numpy.full(1, 0.5) for variable in variables})
-    except (SyntaxError, ValueError, _Unreadable) as error:
+        parsed = ast.parse(" ".join(text.split()), mode="eval").body
+        with numpy.errstate(all="ignore"):
+            _value(parsed, {variable: numpy.full(1, 0.5) for variable in variables})
+    except (SyntaxError, ValueError, OverflowError, RecursionError, MemoryError, _Unreadable) as error:
         cause = str(error) if isinstance(error, _Unreadable) else "Syntax error"
         example = "u*(1-u)" if len(variables) == 1 else "0.1 - u + u^2*v"
         raise Error(f"{name} '{formula}' cannot be read: {cause}. It is a formula of "

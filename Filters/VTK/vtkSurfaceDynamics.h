@@ -14,9 +14,9 @@
  * - Custom: du/dt = Diffusivity Δu + ReactionU and dv/dt = DiffusivityV Δv + ReactionV. The
  *   reactions are formulas of u and v. Without a formula for v there is u alone.
  *
- * PatternLength determines D: it is about the distance between two spots, stripes or waves. Steps
- * in time are of second order. Linear terms are implicit, reactions and transport explicit. Nothing
- * flows over boundaries.
+ * PatternLength determines D: it is about the distance between two spots, stripes or waves. Custom
+ * has diffusivities instead. Steps in time are of second order. Linear terms are implicit,
+ * reactions and transport explicit. Nothing flows over boundaries.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -105,7 +105,8 @@ public:
   /**
    * The time between two steps of the output, in the unit of the equations. A wave travels one unit
    * of length of ParameterUnits in one unit of time. 0 (default): a time in which the pattern
-   * changes visibly. The solver makes as many steps in between as are needed.
+   * changes visibly; for Custom 1, or a hundred steps of the solver if that is shorter. The solver
+   * makes as many steps in between as are needed.
    */
   vtkSetMacro(TimeStep, double);
   vtkGetMacro(TimeStep, double);

@@ -143,7 +143,8 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.dynamics(
             p, c, "Transport", 0.5, 2, start=p[:, 0], velocity=p[:, [1, 2, 0]], Tolerance=1e-12, **o))
         for reactions in (("0.1 - u + u^2*v", "0.9 - u^2*v"), ("u*(1-u)",),
-                          ("-u^2*u + if((u > 0.4) and (v < 0.7), sin(u), -u)", "min(u, v, 0.5)/3 - 1e-1*exp(-v)")):
+                          ("-u^2*u + if((u > 0.4) and (v < 0.7), sin(u), -u)", "min(u, v, 0.5)/3 - 1e-1*exp(-v)"),
+                          ("-pow(u, 2)*((u > 0.1) and (u < 5) and (u != 7))", " ")):
             self.compare(lambda g, p, c, **o: g.dynamics(
                 p, c, "Custom", 0.5, 2, reactions=reactions, Tolerance=1e-12, **o))
 
@@ -318,6 +319,8 @@ class Engines(unittest.TestCase):
             "range": lambda g: g.detail(points, triangles, SmoothingScale=-1.0),
             "degree": lambda g: g.flow(points, triangles, QuadratureDegree=3),
             "symbol": lambda g: g.dynamics(points, triangles, "Custom", reactions=("u", "u*w")),
+            "blank": lambda g: g.dynamics(points, triangles, "Custom", reactions=(" ", "v")),
+            "undefined": lambda g: g.dynamics(points, triangles, "Custom", reactions="log(u - 9)", steps=1),
             "variable": lambda g: g.dynamics(points, triangles, "Custom", reactions="u*v"),
             "no reactions": lambda g: g.dynamics(points, triangles, "Custom"),
             "named reactions": lambda g: g.dynamics(points, triangles, "Wave", reactions="u"),

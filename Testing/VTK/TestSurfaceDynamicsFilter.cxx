@@ -25,6 +25,7 @@ vtkSmartPointer<vtkSurfaceDynamics> MakeFilter(int model, int steps)
 {
   auto data = ToPolyData(GeodesicSphere(16, Radius));
   AddPointArray(data, "xy", 1, [](const Vec3& p, int) { return p[0] * p[1]; });
+  AddPointArray(data, "two", 2, [](const Vec3& p, int c) { return 0.5 + 0.1 * p[c]; });
   AddPointArray(
     data, "w", 3, [](const Vec3& p, int c) { return c == 0   ? -p[1]
                                                     : c == 1 ? p[0]
@@ -115,7 +116,7 @@ TEST(SurfaceDynamicsFilter, FormulasAreAsGoodAsNamedReactions)
   const auto state = [](int model, const char* name)
   {
     auto filter = MakeFilter(model, 2);
-    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "xy");
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "two");
     filter->SetTolerance(1e-10);
     filter->SetTimeStep(0.01);
     filter->SetPatternLength(31.0 * 0.05);
@@ -153,7 +154,7 @@ TEST(SurfaceDynamicsFilter, OneFormulaIsOneUnknown)
 {
   auto filter = MakeFilter(vtkSurfaceDynamics::Custom, 1);
   filter->SetReactionU("if(u > 2, 1, -u)");
-  filter->SetReactionV("");
+  filter->SetReactionV(" ");
   filter->Update();
   EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("V"));
   EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("Integral")->GetNumberOfComponents(), 1);
@@ -180,7 +181,15 @@ TEST(SurfaceDynamicsFilter, TellsWhichFormulaCannotBeRead)
   EXPECT_NE(
     message("u*v", "").find("Undefined symbol: 'v'. It is a formula of u, such as u*(1-u)."),
     std::string::npos);
-  EXPECT_NE(message("", "").find("Reaction U '' cannot be read"), std::string::npos);
+  for (const char* blank : { "", " ", "\n" })
+  {
+    EXPECT_NE(message(blank, "v").find("): The Model Custom needs a formula for Reaction U."),
+      std::string::npos);
+  }
+  for (const char* other : { "/**/u", "u := 3", "u; v", "u // half", "[u]", "'u'" })
+  {
+    EXPECT_NE(message(other, "").find("cannot be read"), std::string::npos) << other;
+  }
   EXPECT_NE(message("u*iHat", "").find("Reaction U 'u*iHat' cannot be read"), std::string::npos);
   filter->SetReactionU("log(u - 100)"); // not a number anywhere
   filter->Update();

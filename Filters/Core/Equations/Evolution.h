@@ -37,10 +37,12 @@ public:
 
   virtual const MultiVector& Coefficients() const = 0;
 
-  /// The error of the terms that the last step has extrapolated, times its length, beside the
-  /// largest value of the unknown. It tells of steps that are too long. 0 if nothing is
-  /// extrapolated.
-  virtual double ExtrapolationError() const { return 0.0; }
+  ///@{ The errors of the terms that the last step has extrapolated, times its length, and the
+  /// largest values during the step, of each unknown. Both together tell of steps that are too
+  /// long. Empty if nothing is extrapolated.
+  virtual Columns ExtrapolationErrors() const { return {}; }
+  virtual Columns LargestValues() const { return {}; }
+  ///@}
 
   /// An energy that only damping and the solves change, in squared units of length of the space.
   /// NaN if the equation has none.

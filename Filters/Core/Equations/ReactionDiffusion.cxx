@@ -70,7 +70,8 @@ void ReactionDiffusion::Start(MultiVector coefficients)
   twoBefore_ = {};
   explicitNow_ = {};
   explicitBefore_ = {};
-  extrapolationError_ = 0.0;
+  errors_ = {};
+  largest_ = {};
 }
 
 ReactionDiffusion::Rates ReactionDiffusion::ExplicitPart(
@@ -79,7 +80,7 @@ ReactionDiffusion::Rates ReactionDiffusion::ExplicitPart(
   MultiVector values;
   Multiply(samples_.values, coefficients, values, job.threads);
   Rates rates;
-  rates.size = values.cwiseAbs().colwise().maxCoeff();
+  rates.largest = values.cwiseAbs().colwise().maxCoeff().transpose().array();
   rates.load = MultiVector::Zero(coefficients.rows(), coefficients.cols());
   if (terms_.react)
   {
@@ -128,59 +129,76 @@ MultiVector ReactionDiffusion::SolveSpecies(const MultiVector& known,
   return result;
 }
 
-MultiVector ReactionDiffusion::FirstStep(
-  const MultiVector& atStart, SolveReport& report, const Job& job) const
+/// Its error is of third order, and the difference of the rates is of first order in a term of
+/// second order. So the square of the relative difference is the error.
+MultiVector ReactionDiffusion::FirstStep(Columns& errors, SolveReport& report, const Job& job) const
 {
+  const MultiVector& atStart = explicitNow_.load;
   const MultiVector once = this->SolveSpecies(now_, atStart, now_, report, job.Part(0.0, 0.5));
   const MultiVector then = this->ExplicitPart(once, job).load;
   const MultiVector twice = this->SolveSpecies(once, then, once, report, job.Part(0.5, 1.0));
+  const Columns differences = this->ErrorsOf(atStart, then);
+  const Columns sizes = explicitNow_.largest.max(differences);
+  errors = (sizes > 0.0).select(differences.square() / sizes, 0.0);
   return 0.5 * (once + twice);
 }
 
 /// A mean over each function, because rates are known as integrals.
-double ReactionDiffusion::ErrorOf(const MultiVector& extrapolated, const Rates& computed) const
+Columns ReactionDiffusion::ErrorsOf(
+  const MultiVector& extrapolated, const MultiVector& computed) const
 {
   const std::vector<double>& integrals = space_->Integrals();
   const Eigen::Map<const Eigen::ArrayXd> area(integrals.data(), static_cast<Id>(integrals.size()));
   const double least = 1e-6 * area.mean(); // less area leaves rounding errors
-  double largest = 0.0;
+  Columns errors(extrapolated.cols());
   for (Id s = 0; s < extrapolated.cols(); ++s)
   {
-    const double error =
-      ((computed.load.col(s) - extrapolated.col(s)).array().abs() / (area + least)).maxCoeff();
-    largest = std::fmax(largest, stage_ * error / computed.size[s]);
+    errors[s] =
+      stage_ * ((computed.col(s) - extrapolated.col(s)).array().abs() / (area + least)).maxCoeff();
   }
-  return largest;
+  return errors;
 }
 
 SolveReport ReactionDiffusion::Advance(const Job& job)
 {
   SolveReport report = SolveReport::Solved();
-  if (explicitNow_.rows() == 0)
+  if (explicitNow_.load.rows() == 0)
   {
-    explicitNow_ = this->ExplicitPart(now_, job).load;
+    explicitNow_ = this->ExplicitPart(now_, job);
   }
+  Columns errors;
   MultiVector ahead;
   MultiVector next;
   if (before_.rows() == 0)
   {
-    next = this->FirstStep(explicitNow_, report, job);
+    next = this->FirstStep(errors, report, job);
   }
   else
   {
-    ahead = 2.0 * explicitNow_ - explicitBefore_;
+    ahead = 2.0 * explicitNow_.load - explicitBefore_;
     const MultiVector guess = twoBefore_.rows() == 0
                                 ? MultiVector(2.0 * now_ - before_)
                                 : MultiVector(3.0 * (now_ - before_) + twoBefore_);
     next = this->SolveSpecies((4.0 * now_ - before_) / 3.0, ahead, guess, report, job);
   }
   Rates atNext = this->ExplicitPart(next, job);
-  extrapolationError_ = ahead.rows() == 0 ? 0.0 : this->ErrorOf(ahead, atNext);
+  if (ahead.rows() > 0)
+  {
+    errors = this->ErrorsOf(ahead, atNext.load);
+  }
+  if (!atNext.load.allFinite())
+  {
+    next.setConstant(std::numeric_limits<double>::quiet_NaN());
+    report = SolveReport();
+    report.end = SolveEnd::NotFinite;
+  }
+  errors_ = std::move(errors);
+  largest_ = explicitNow_.largest.max(atNext.largest);
   twoBefore_ = std::move(before_);
   before_ = std::move(now_);
   now_ = std::move(next);
-  explicitBefore_ = std::move(explicitNow_);
-  explicitNow_ = std::move(atNext.load);
+  explicitBefore_ = std::move(explicitNow_.load);
+  explicitNow_ = std::move(atNext);
   return report;
 }
 

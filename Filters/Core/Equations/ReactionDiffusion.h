@@ -45,21 +45,22 @@ public:
   void Start(MultiVector coefficients) override;
   SolveReport Advance(const Job& job) override;
   const MultiVector& Coefficients() const override { return now_; }
-  double ExtrapolationError() const override { return extrapolationError_; }
+  Columns ExtrapolationErrors() const override { return errors_; }
+  Columns LargestValues() const override { return largest_; }
   double Energy(const Job& job) const override;
 
 private:
   struct Rates
   {
-    MultiVector load;        // integrals of reactions and transport
-    Eigen::RowVectorXd size; // the largest value of each species
+    MultiVector load; // integrals of reactions and transport
+    Columns largest;  // absolute value of each species
   };
 
   Rates ExplicitPart(const MultiVector& coefficients, const Job& job) const;
   MultiVector SolveSpecies(const MultiVector& known, const MultiVector& explicitPart,
     const MultiVector& guess, SolveReport& report, const Job& job) const;
-  MultiVector FirstStep(const MultiVector& atStart, SolveReport& report, const Job& job) const;
-  double ErrorOf(const MultiVector& extrapolated, const Rates& computed) const;
+  MultiVector FirstStep(Columns& errors, SolveReport& report, const Job& job) const;
+  Columns ErrorsOf(const MultiVector& extrapolated, const MultiVector& computed) const;
 
   std::shared_ptr<const FiniteElementSpace> space_;
   ReactionTerms terms_;
@@ -75,9 +76,10 @@ private:
   MultiVector now_;
   MultiVector before_;         // one step ago; no rows before the first step
   MultiVector twoBefore_;      // two steps ago; no rows before the second step
-  MultiVector explicitNow_;    // ExplicitPart of now_; no rows at the start
+  Rates explicitNow_;          // of now_; no rows at the start
   MultiVector explicitBefore_; // of before_
-  double extrapolationError_ = 0.0;
+  Columns errors_;             // of the last step
+  Columns largest_;            // during the last step
 };
 
 } // namespace gridfem

@@ -152,11 +152,13 @@ double FastestResponse(
   constexpr Id Steps = 16; // from low to high
   const Id species = static_cast<Id>(low.size());
   Id places = 1;
+  std::vector<double> size;
   std::vector<double> step;
   for (Id s = 0; s < species; ++s)
   {
-    const double least = 1e-3 * std::max(1.0, std::abs(low[s]));
-    step.push_back(std::max(high[s] - low[s], least) / Steps);
+    const double largest = std::max(std::abs(low[s]), std::abs(high[s]));
+    size.push_back(largest > 0.0 ? largest : 1.0);
+    step.push_back(std::max(high[s] - low[s], 1e-3 * size[s]) / Steps);
     places *= Steps + 1;
   }
   std::vector<double> u(static_cast<std::size_t>(places * species));
@@ -179,7 +181,8 @@ double FastestResponse(
       for (Id s = 0, stride = 1; s < species; ++s, stride *= Steps + 1)
       {
         const Id other = place / stride % (Steps + 1) < Steps ? place + stride : place - stride;
-        sum += std::abs(rates[other * species + row] - rates[place * species + row]) / step[s];
+        const double change = rates[other * species + row] - rates[place * species + row];
+        sum += std::abs(change) / step[s] * size[s] / size[row];
       }
       fastest = std::isfinite(sum) ? std::max(fastest, sum) : fastest;
     }

@@ -56,8 +56,9 @@ ReactionSystem FitzHughNagumo();
 /// Cahn: A microscopic theory for antiphase boundary motion, 1979]
 ReactionSystem AllenCahn();
 
-/// Returns how fast reactions answer to a change: the largest sum of a row of the matrix ∂R/∂u, for
-/// values from `low` to `high` of each species. Places where R is not finite do not count.
+/// Returns how fast reactions answer to a change: the largest sum of a row of the matrix ∂R/∂u, in
+/// units of the largest value of each species, for values from `low` to `high`. A species that is 0
+/// has the unit 1. Places where R is not finite do not count.
 double FastestResponse(
   const ReactionRates& react, const std::vector<double>& low, const std::vector<double>& high);
 

@@ -69,7 +69,11 @@ void Append(const SolveReport& step, SolveReport& report)
 
 void KeepWorse(SolveReport report, SolveReport& kept)
 {
-  if (report.converged != kept.converged ? kept.converged : report.iterations >= kept.iterations)
+  const bool isLost = report.end == SolveEnd::NotFinite;
+  const bool wasLost = kept.end == SolveEnd::NotFinite;
+  if (isLost != wasLost                    ? isLost
+      : report.converged != kept.converged ? kept.converged
+                                           : report.iterations >= kept.iterations)
   {
     kept = std::move(report);
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gridfem
@@ -98,15 +99,26 @@ ReactionSystem CustomSystem(const DynamicsSolver::Options& options, const GivenR
 /// A step that resolves given reactions at the values of the start.
 double StepOfReactions(const Surface& surface, const DynamicsSolver::Input& input)
 {
-  std::vector<double> low(static_cast<std::size_t>(input.reactions.species), 0.0);
-  std::vector<double> high(low.size(), 1.0);
+  const auto species = static_cast<std::size_t>(input.reactions.species);
+  std::vector<double> low(species, 0.0);
+  std::vector<double> high(species, input.start ? 0.0 : 1.0);
   if (input.start)
   {
     const Field start = ReadField(surface, input.start);
-    for (Id s = 0; s < start.values.cols(); ++s)
+    const std::vector<char> isUsed = UsedPoints(surface.Mesh(), surface.Threads());
+    for (Id c = 0; c < start.values.cols(); ++c)
     {
-      low[static_cast<std::size_t>(s)] = start.values.col(s).minCoeff();
-      high[static_cast<std::size_t>(s)] = start.values.col(s).maxCoeff();
+      const auto s = static_cast<std::size_t>(c);
+      low[s] = std::numeric_limits<double>::infinity();
+      high[s] = -low[s];
+      for (Id row = 0; row < start.values.rows(); ++row)
+      {
+        if (!input.start.IsOnPoints() || isUsed[static_cast<std::size_t>(row)])
+        {
+          low[s] = std::min(low[s], start.values(row, c));
+          high[s] = std::max(high[s], start.values(row, c));
+        }
+      }
     }
   }
   return 0.2 / FastestResponse(input.reactions.rates, low, high);
@@ -168,6 +180,7 @@ MadeEquation MakeEquation(const Surface& surface, const DynamicsSolver::Input& i
   if (options.model == Model::Custom)
   {
     system.step = StepOfReactions(surface, input);
+    system.frame = std::min(system.frame, 100.0 * system.step);
   }
   const double scale =
     surface.LengthInWorldUnits(options.patternLength) / system.patternLength / unit;

@@ -20,13 +20,6 @@ namespace
 
 using Model = DynamicsModel;
 
-/// The largest error of a step that is accepted. The steps of the named models are known to be
-/// good.
-double AllowedError(Model model)
-{
-  return model == Model::Custom ? 0.02 : 0.05;
-}
-
 void RequireInput(const DynamicsSolver::Input& input, const DynamicsSolver::Options& options)
 {
   RequireOptions(options);
@@ -88,15 +81,32 @@ std::vector<std::string> WarningsOfPatterns(
   if (length < needed * spacing)
   {
     text << "The Pattern Length is only " << length / spacing << " times the distance between "
-         << "functions, so the grid distorts the result. A larger Depth, or a finer mesh with hat "
+         << "functions, so the grid distorts patterns of this length. A larger Depth, or a finer "
+            "mesh with hat "
             "functions, resolves it.";
   }
   else if (length < 3.0 * side)
   {
     text << "The Pattern Length is only " << length / side << " times the side of a triangle, so "
-         << "the points do not show the whole result. They do on a subdivided mesh.";
+         << "the points do not show all of such a pattern. They do on a subdivided mesh.";
   }
   return NotEmpty({ text.str() });
+}
+
+void KeepLarger(const Columns& values, Columns& kept)
+{
+  kept = kept.size() == 0 ? values : Columns(kept.max(values));
+}
+
+/// Returns the largest error beside the largest value, of all unknowns.
+double LargestRatio(const Columns& errors, const Columns& values)
+{
+  double largest = 0.0;
+  for (Id c = 0; c < errors.size(); ++c)
+  {
+    largest = errors[c] > 0.0 ? std::fmax(largest, errors[c] / values[c]) : largest;
+  }
+  return largest;
 }
 
 } // namespace
@@ -116,7 +126,8 @@ const DynamicsSolver::Result& DynamicsSolver::Update(
   surface.Prepare(job.progress.Part(0.0, 0.2));
   RequireFirstDegree(surface.UsedOptions().choice.kind, "Patterns and waves");
   tolerance_ = options.equation.solve.tolerance;
-  allowedError_ = AllowedError(options.model);
+  isCustom_ = options.model == Model::Custom;
+  allowedError_ = isCustom_ ? 0.02 : 0.05;
   this->UpdateEquation(surface, input, options, surface.MakeJob(job.progress.Part(0.2, 0.3)));
   this->UpdateStart(surface, input, options, surface.MakeJob(job.progress.Part(0.3, 0.35)));
   this->MakeFrames(surface, input, options, surface.MakeJob(job.progress.Part(0.35, 1.0)));
@@ -143,19 +154,25 @@ void DynamicsSolver::UpdateEquation(
   surface.GetStages().Run(HierarchyStage, key,
     [&]
     {
-      result_.frames.clear(); // frees its memory first
-      equation_.reset();
-      this->RemakeEquation(surface, input, options, 1, job);
+      result_.frames.clear();
+      frameStart_ = {};
+      refinement_ = 1;
+      this->MakeEquation(surface, input, options, job);
       result_.warnings = WarningsOfPatterns(surface, options, input.reactions);
     });
 }
 
-void DynamicsSolver::RemakeEquation(const Surface& surface, const Input& input,
-  const Options& options, int refinement, const Job& job)
+void DynamicsSolver::MakeEquation(
+  const Surface& surface, const Input& input, const Options& options, const Job& job)
 {
-  MadeEquation made = MakeEquation(surface, input, options, refinement, job);
+  equation_.reset(); // frees its memory first
+  substepsMade_ = 0;
+  MadeEquation made = gridfem::MakeEquation(surface, input, options, refinement_, job);
+  if (frameStart_.rows() > 0)
+  {
+    made.equation->Start(frameStart_);
+  }
   equation_ = std::move(made.equation);
-  refinement_ = refinement;
   substeps_ = made.substeps;
   result_.timeStep = made.frame;
 }
@@ -187,15 +204,16 @@ void DynamicsSolver::MakeSubsteps(const Job& job)
   if (substepsMade_ == 0)
   {
     report_ = SolveReport::Solved();
-    errorOfFrame_ = 0.0;
-    frameStart_ = equation_->Coefficients();
+    errors_ = {};
+    largestOfFrame_ = largest_;
   }
   for (; substepsMade_ < substeps_ && report_.end != SolveEnd::NotFinite; ++substepsMade_)
   {
     const double share = 1.0 / substeps_;
     KeepWorse(
       equation_->Advance(job.Part(share * substepsMade_, share * (substepsMade_ + 1))), report_);
-    errorOfFrame_ = std::max(errorOfFrame_, equation_->ExtrapolationError());
+    KeepLarger(equation_->ExtrapolationErrors(), errors_);
+    KeepLarger(equation_->LargestValues(), largestOfFrame_);
   }
 }
 
@@ -204,17 +222,26 @@ DynamicsSolver::Frame DynamicsSolver::NextFrame(
   const Surface& surface, const Input& input, const Options& options, const Job& job)
 {
   constexpr int FinestRefinement = 16;
-  this->MakeSubsteps(job);
-  while (refinement_ < FinestRefinement &&
-         (errorOfFrame_ > allowedError_ || report_.end == SolveEnd::NotFinite))
+  for (;;)
   {
-    this->RemakeEquation(surface, input, options, 2 * refinement_, job.Part(0.0, 0.0));
-    equation_->Start(frameStart_);
-    substepsMade_ = 0;
+    if (!equation_)
+    {
+      this->MakeEquation(surface, input, options, job.Part(0.0, 0.0));
+    }
     this->MakeSubsteps(job);
+    const bool isGood =
+      LargestRatio(errors_, largestOfFrame_) <= allowedError_ && report_.end != SolveEnd::NotFinite;
+    if (isGood || refinement_ == FinestRefinement)
+    {
+      break;
+    }
+    refinement_ *= 2;
+    equation_.reset();
   }
+  frameStart_ = equation_->Coefficients();
   substepsMade_ = 0;
-  extrapolationError_ = std::max(extrapolationError_, errorOfFrame_);
+  largest_ = largestOfFrame_;
+  KeepLarger(errors_, errorsSinceStart_);
   return this->FrameNow(surface);
 }
 
@@ -228,7 +255,7 @@ DynamicsSolver::Frame DynamicsSolver::FrameNow(const Surface& surface) const
   Frame frame;
   frame.atPoints = surface.ValuesAtPoints(coefficients);
   frame.report = report_;
-  frame.extrapolationError = extrapolationError_;
+  frame.extrapolationError = LargestRatio(errorsSinceStart_, largest_);
   frame.integral = area * (coefficients.transpose() * weights).array();
   frame.energy = area * equation_->Energy(surface.MakeJob({}));
   return frame;
@@ -245,14 +272,20 @@ void DynamicsSolver::MakeFrames(
   {
     frames.clear();
     ofFrames_ = key;
-    if (refinement_ > 1)
-    {
-      this->RemakeEquation(surface, input, options, 1, job.Part(0.0, 0.1));
-    }
-    equation_->Start(start_);
-    substepsMade_ = 0;
+    frameStart_ = start_;
+    largest_ = {};
     report_ = startReport_;
-    extrapolationError_ = 0.0;
+    errorsSinceStart_ = {};
+    if (refinement_ > 1 || !equation_)
+    {
+      refinement_ = 1;
+      this->MakeEquation(surface, input, options, job.Part(0.0, 0.1));
+    }
+    else
+    {
+      equation_->Start(start_);
+      substepsMade_ = 0;
+    }
     frames.push_back(this->FrameNow(surface));
   }
   const auto wanted = static_cast<std::size_t>(options.numberOfSteps) + 1;
@@ -280,8 +313,12 @@ std::vector<std::string> DynamicsSolver::Warnings(int frame) const
   const SolveReport& report = shown.report;
   if (report.end == SolveEnd::NotFinite)
   {
-    warnings.emplace_back("The values have left the range of numbers. Reactions this fast need "
-                          "a shorter Time Step, or another start.");
+    warnings.emplace_back(
+      isCustom_ ? "The values have left the range of numbers. A reaction grows without "
+                  "end, is undefined for some values, such as sqrt(u) for u below 0, or "
+                  "needs a shorter Time Step."
+                : "The values have left the range of numbers. Reactions this fast need "
+                  "a shorter Time Step, or another start.");
     return warnings;
   }
   if (!report.converged)
@@ -291,7 +328,7 @@ std::vector<std::string> DynamicsSolver::Warnings(int frame) const
   if (shown.extrapolationError > allowedError_)
   {
     std::ostringstream text;
-    text << "Reactions or transport change so fast that a step of the solver is wrong by "
+    text << "Reactions or transport change so fast that a step of the solver was wrong by "
          << 100.0 * shown.extrapolationError << " % of the largest value. A shorter Time Step is "
          << "more exact.";
     warnings.push_back(text.str());

@@ -49,9 +49,9 @@ public:
     DynamicsModel model = DynamicsModel::TuringSpots;
     double patternLength = 0.1; // of spots, waves or the first bump; parameter units, above 0
     int numberOfSteps = 20;     // frames after the start
-    /// Time between two frames; 0: a time in which the pattern changes visibly. The solver makes as
-    /// many steps in between as are needed. The unit is that of the reactions. A wave needs one
-    /// unit of time for one parameter unit of length.
+    /// Time between two frames; 0: a time in which the pattern changes visibly, 1 for Custom. The
+    /// solver makes as many steps in between as are needed. The unit is that of the reactions. A
+    /// wave needs one unit of time for one parameter unit of length.
     double timeStep = 0.0;
     int seed = 1;
     double feed = 0.037;  // of Gray-Scott
@@ -90,11 +90,12 @@ public:
 
   struct Frame
   {
-    MultiVector atPoints;      // u and, where there are two, v; of a wave v = u'
-    SolveReport report;        // of the worst solve since the frame before
-    double extrapolationError; // Evolution::ExtrapolationError, the largest since the start
-    Columns integral;          // of each column over the surface, in squared world units
-    double energy;             // Evolution::Energy in squared world units; NaN unless of a wave
+    MultiVector atPoints; // u and, where there are two, v; of a wave v = u'
+    SolveReport report;   // of the worst solve since the frame before
+    /// The largest of Evolution::ExtrapolationErrors since the start, beside the largest value.
+    double extrapolationError;
+    Columns integral; // of each column over the surface, in squared world units
+    double energy;    // Evolution::Energy in squared world units; NaN unless of a wave
   };
 
   struct Result
@@ -124,8 +125,8 @@ public:
 private:
   void UpdateEquation(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
-  void RemakeEquation(const Surface& surface, const Input& input, const Options& options,
-    int refinement, const Job& job);
+  void MakeEquation(
+    const Surface& surface, const Input& input, const Options& options, const Job& job);
   void UpdateStart(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
   void MakeFrames(
@@ -135,19 +136,23 @@ private:
   void MakeSubsteps(const Job& job);
   Frame FrameNow(const Surface& surface) const;
 
-  std::unique_ptr<Evolution> equation_;
-  int refinement_ = 1; // of the usual steps
-  int substeps_ = 1;   // from frame to frame
+  std::unique_ptr<Evolution> equation_; // null: it has to be made with shorter steps
+  int refinement_ = 1;                  // of the usual steps
+  int substeps_ = 1;                    // from frame to frame
   MultiVector start_;
   SolveReport startReport_; // of its projection
   StageKey ofFrames_;
-  MultiVector frameStart_;          // the coefficients of the last frame
-  int substepsMade_ = 0;            // since the last frame; more than 0 after an abort
-  SolveReport report_;              // of the worst of them
-  double errorOfFrame_ = 0.0;       // the largest extrapolation error of these
-  double extrapolationError_ = 0.0; // the largest since the start
-  double tolerance_ = 0.0;          // of the last update
-  double allowedError_ = 0.0;       // of the last update
+  MultiVector frameStart_;   // the coefficients of the last frame
+  int substepsMade_ = 0;     // since the last frame; more than 0 after an abort
+  SolveReport report_;       // of the worst of them
+  Columns errors_;           // the largest extrapolation errors of these
+  Columns largestOfFrame_;   // the largest values since the start, with these
+  Columns largest_;          // the largest values from the start to the last frame
+  Columns errorsSinceStart_; // the largest ones to the last frame
+  double tolerance_ = 0.0;   // of the last update
+  bool isCustom_ = false;    // in the last update
+  /// The largest error of a step that is accepted. The steps of named models are known to be good.
+  double allowedError_ = 0.0;
   Result result_;
 };
 

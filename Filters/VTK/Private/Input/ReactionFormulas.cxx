@@ -32,8 +32,23 @@ void KeepCause(vtkObject* /*parser*/, unsigned long /*event*/, void* kept, void*
   const std::size_t end = cause.find("\tExpression");
   cause.resize(end == std::string::npos ? cause.size() : end);
   const std::size_t dash = cause.rfind(" - ");
-  cause.erase(0, dash == std::string::npos ? 0 : dash + 3);
+  cause.erase(0, dash == std::string::npos ? cause.size() : dash + 3);
   *static_cast<std::string*>(kept) = cause;
+}
+
+/// Whether a text has no assignments, comments, strings or statements, all of which the parser
+/// takes.
+bool IsExpression(const std::string& text)
+{
+  const char* const letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  return text.find_first_not_of(std::string(letters) + ".,+-*/%^()<>=!&|? \t\r\n") ==
+           std::string::npos &&
+         text.find("/*") == std::string::npos && text.find("//") == std::string::npos;
+}
+
+bool IsBlank(const std::string& text)
+{
+  return text.find_first_not_of(" \t\r\n") == std::string::npos;
 }
 
 /// The formulas of one thread.
@@ -78,7 +93,7 @@ private:
       parser->SetScalarVariableValue(names[s], 0.5);
     }
     parser->SetFunction(formula.text.c_str());
-    const bool isNumber = parser->IsScalarResult();
+    const bool isNumber = IsExpression(formula.text) && parser->IsScalarResult();
     parser->RemoveObserver(observer);
     if (!isNumber)
     {
@@ -142,8 +157,12 @@ private:
 
 GivenReactions ReactionsOfFormulas(const std::string& ofU, const std::string& ofV)
 {
+  if (IsBlank(ofU))
+  {
+    throw InvalidInput("The Model Custom needs a formula for Reaction U.");
+  }
   std::vector<Formula> formulas = { { "Reaction U", ofU } };
-  if (!ofV.empty())
+  if (!IsBlank(ofV))
   {
     formulas.push_back({ "Reaction V", ofV });
   }

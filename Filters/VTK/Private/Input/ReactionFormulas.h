@@ -10,7 +10,7 @@ namespace gridfem
 {
 
 /// Returns the reactions of two species by formulas of u and v, or of one species by a formula of u
-/// if the second formula is empty. Rates are NaN where a formula is undefined. Throws InvalidInput
+/// if the second formula is blank. Rates are NaN where a formula is undefined. Throws InvalidInput
 /// for a formula that cannot be read.
 GivenReactions ReactionsOfFormulas(const std::string& ofU, const std::string& ofV);
 
