@@ -82,8 +82,7 @@ std::vector<std::string> WarningsOfPatterns(
   {
     text << "The Pattern Length is only " << length / spacing << " times the distance between "
          << "functions, so the grid distorts patterns of this length. A larger Depth, or a finer "
-            "mesh with hat "
-            "functions, resolves it.";
+            "mesh with hat functions, resolves it.";
   }
   else if (length < 3.0 * side)
   {

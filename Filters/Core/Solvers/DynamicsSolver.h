@@ -57,7 +57,8 @@ public:
     double feed = 0.037;  // of Gray-Scott
     double kill = 0.06;   // of Gray-Scott
     double damping = 0.0; // of the wave, per unit of time
-    /// Of Transport, above 0, and of u with Custom; squared parameter units per time.
+    /// The diffusivity of Transport, above 0, and of u with Custom; squared parameter units per
+    /// time.
     double diffusivity = 1e-4;
     double diffusivityV = 4e-3; // of v with Custom; squared parameter units per time
 
