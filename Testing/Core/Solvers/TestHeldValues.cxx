@@ -149,7 +149,7 @@ TEST(HeldValues, AreForgottenAfterAMaskThatHoldsNone)
     input.constraints.property = "the mask";
     input.constraints.version = StageKey().Add(version);
     input.constraints.find = [points, &values] {
-      return PointValues{ points, values(points, Eigen::all) };
+      return PointValues{ points, values(points, Eigen::placeholders::all) };
     };
   };
   const auto expectAsNew = [&]
