@@ -70,8 +70,8 @@ void ReactionDiffusion::Start(MultiVector coefficients)
   twoBefore_ = {};
   explicitNow_ = {};
   explicitBefore_ = {};
-  errors_ = {};
-  largest_ = {};
+  errors_ = Columns();
+  largest_ = Columns();
 }
 
 ReactionDiffusion::Rates ReactionDiffusion::ExplicitPart(

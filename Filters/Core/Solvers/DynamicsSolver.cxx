@@ -203,7 +203,7 @@ void DynamicsSolver::MakeSubsteps(const Job& job)
   if (substepsMade_ == 0)
   {
     report_ = SolveReport::Solved();
-    errors_ = {};
+    errors_ = Columns();
     largestOfFrame_ = largest_;
   }
   for (; substepsMade_ < substeps_ && report_.end != SolveEnd::NotFinite; ++substepsMade_)
@@ -272,9 +272,9 @@ void DynamicsSolver::MakeFrames(
     frames.clear();
     ofFrames_ = key;
     frameStart_ = start_;
-    largest_ = {};
+    largest_ = Columns();
     report_ = startReport_;
-    errorsSinceStart_ = {};
+    errorsSinceStart_ = Columns();
     if (refinement_ > 1 || !equation_)
     {
       refinement_ = 1;

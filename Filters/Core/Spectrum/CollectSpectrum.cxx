@@ -158,7 +158,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   spectrum.residuals = Ordered(residuals, order);
   std::vector<Index> ofOthers(order.begin() + zeros, order.end());
   std::for_each(ofOthers.begin(), ofOthers.end(), [&](Index& place) { place -= zeros; });
-  ofPairs = Eigen::MatrixXd(ofPairs(ofOthers, Eigen::placeholders::all));
+  ofPairs = Eigen::MatrixXd(ofPairs(ofOthers, Eigen::seqN(0, ofPairs.cols())));
   spectrum.estimatedErrors.assign(zeros, 0.0);
   spectrum.isErrorTrusted.assign(zeros, 1);
   spectrum.numberOfConverged = static_cast<Index>(std::count_if(spectrum.residuals.begin(),

@@ -775,6 +775,27 @@ TEST(DynamicsSolver, ShortensStepsThatAreTooLong)
   EXPECT_EQ(solver.Update(surface, input, options).frames[3].atPoints, first.frames[3].atPoints);
 }
 
+/// Models have different numbers of unknowns.
+TEST(DynamicsSolver, AnotherModelKeepsNothing)
+{
+  const Mesh mesh = Shared(GeodesicSphere(8));
+  auto input = From(mesh, 1, [](const Vec3& p, int) { return std::sin(3.0 * p[0]) + p[2]; });
+  input.velocity = From(mesh, 3, [](const Vec3& p, int c) { return p[(c + 1) % 3]; }).start;
+  input.reactions = Given(1, [](const double* u, double* rates) { rates[0] = 1.0 - u[0]; });
+  Stages stages;
+  LocalSurface surface(stages, mesh, InWorld(4));
+  DynamicsSolver solver;
+  for (const int model : { 5, 1, 3, 2, 6, 0, 4, 1, 5 })
+  {
+    auto options = Of(DynamicsModel(model), 0.0, 1);
+    options.patternLength = 1.0;
+    const DynamicsSolver::Result fresh = DynamicsSolver::Solve(mesh, input, options, InWorld(4));
+    const DynamicsSolver::Result& kept = solver.Update(surface, input, options);
+    EXPECT_EQ(kept.frames[1].atPoints, fresh.frames[1].atPoints) << model;
+    EXPECT_EQ(kept.frames[1].extrapolationError, fresh.frames[1].extrapolationError) << model;
+  }
+}
+
 /// At any moment, also while steps become shorter.
 TEST(DynamicsSolver, GoesOnAfterAnAbortWhileStepsBecomeShorter)
 {

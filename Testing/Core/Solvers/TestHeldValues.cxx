@@ -149,7 +149,7 @@ TEST(HeldValues, AreForgottenAfterAMaskThatHoldsNone)
     input.constraints.property = "the mask";
     input.constraints.version = StageKey().Add(version);
     input.constraints.find = [points, &values] {
-      return PointValues{ points, values(points, Eigen::placeholders::all) };
+      return PointValues{ points, values(points, Eigen::seqN(0, values.cols())) };
     };
   };
   const auto expectAsNew = [&]
