@@ -92,12 +92,13 @@ STARTS = {
     "SurfaceDetail": [{"Tolerance": 1e-12, "ValueArray": [POINTS, "p_f"]},
                       {"Tolerance": 1e-12, "TransferFunction": 3,
                        "DetailScaleArray": [POINTS, "p_g"]}],
-    "SurfaceDynamics": [{"PatternLength": 1.0, "NumberOfSteps": 2},
-                        {"Model": 1, "PatternLength": 1.0, "NumberOfSteps": 1},
-                        {"Model": 4, "PatternLength": 1.0, "NumberOfSteps": 1},
-                        {"Model": 5, "PatternLength": 1.0, "NumberOfSteps": 1, "StartArray": [POINTS, "p_f"],
-                         "VelocityArray": [POINTS, "p_vector"]},
-                        {"Model": 6, "PatternLength": 1.0, "NumberOfSteps": 1}],
+    # Short steps, because the longest of a model takes many solves.
+    "SurfaceDynamics": [{"PatternLength": 1.0, "NumberOfSteps": 2, "TimeStep": 0.05},
+                        {"Model": 1, "PatternLength": 1.0, "NumberOfSteps": 1, "TimeStep": 0.05},
+                        {"Model": 4, "PatternLength": 1.0, "NumberOfSteps": 1, "TimeStep": 0.05},
+                        {"Model": 5, "PatternLength": 1.0, "NumberOfSteps": 1, "TimeStep": 0.05,
+                         "StartArray": [POINTS, "p_f"], "VelocityArray": [POINTS, "p_vector"]},
+                        {"Model": 6, "PatternLength": 1.0, "NumberOfSteps": 1, "TimeStep": 0.05}],
     "SurfaceGradient": [{"Array": [POINTS, "p_vector"]},
                         {"Array": [POINTS, "p_vector"], "HodgeDecomposition": 1}]}
 
