@@ -15,18 +15,6 @@ double SmoothStep(double x, double width)
   return t * t * (3.0 - 2.0 * t);
 }
 
-template<int Species, class React>
-ReactionRates AtEachPlace(React react)
-{
-  return [react](const double* u, double* rates, Id places)
-  {
-    for (Id place = 0; place < places; ++place)
-    {
-      react(u + Species * place, rates + Species * place);
-    }
-  };
-}
-
 /// The state of rest of FitzHughNagumo(), by Newton's method.
 std::vector<double> RestOfFitzHughNagumo(double beta, double gamma)
 {

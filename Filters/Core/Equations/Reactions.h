@@ -14,6 +14,20 @@ namespace gridfem
 /// by place. Several threads call it at the same time.
 using ReactionRates = std::function<void(const double* u, double* rates, Id places)>;
 
+/// Returns reactions that compute one place at a time.
+/// @param react  is called with the values and the rates of a place
+template<int Species, class React>
+ReactionRates AtEachPlace(React react)
+{
+  return [react](const double* u, double* rates, Id places)
+  {
+    for (Id place = 0; place < places; ++place)
+    {
+      react(u + Species * place, rates + Species * place);
+    }
+  };
+}
+
 /// A system du/dt = D Δu + R(u) of one or two species, in units of its own. Functions of one place
 /// read and write one number per species.
 struct ReactionSystem

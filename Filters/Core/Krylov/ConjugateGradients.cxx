@@ -4,6 +4,7 @@
 #include "Krylov/SolverIteration.h"
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace gridfem
@@ -69,11 +70,9 @@ void Append(const SolveReport& step, SolveReport& report)
 
 void KeepWorse(SolveReport report, SolveReport& kept)
 {
-  const bool isLost = report.end == SolveEnd::NotFinite;
-  const bool wasLost = kept.end == SolveEnd::NotFinite;
-  if (isLost != wasLost                    ? isLost
-      : report.converged != kept.converged ? kept.converged
-                                           : report.iterations >= kept.iterations)
+  const auto badness = [](const SolveReport& r)
+  { return std::make_tuple(r.end == SolveEnd::NotFinite, !r.converged, r.iterations); };
+  if (badness(report) >= badness(kept))
   {
     kept = std::move(report);
   }

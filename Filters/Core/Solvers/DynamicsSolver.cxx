@@ -92,6 +92,12 @@ std::vector<std::string> WarningsOfPatterns(
   return NotEmpty({ text.str() });
 }
 
+/// The largest error of a step that is accepted. The steps of named models are known to be good.
+double AllowedError(bool isCustom)
+{
+  return isCustom ? 0.02 : 0.05;
+}
+
 void KeepLarger(const Columns& values, Columns& kept)
 {
   kept = kept.size() == 0 ? values : Columns(kept.max(values));
@@ -126,7 +132,6 @@ const DynamicsSolver::Result& DynamicsSolver::Update(
   RequireFirstDegree(surface.UsedOptions().choice.kind, "Patterns and waves");
   tolerance_ = options.equation.solve.tolerance;
   isCustom_ = options.model == Model::Custom;
-  allowedError_ = isCustom_ ? 0.02 : 0.05;
   this->UpdateEquation(surface, input, options, surface.MakeJob(job.progress.Part(0.2, 0.3)));
   this->UpdateStart(surface, input, options, surface.MakeJob(job.progress.Part(0.3, 0.35)));
   this->MakeFrames(surface, input, options, surface.MakeJob(job.progress.Part(0.35, 1.0)));
@@ -156,17 +161,17 @@ void DynamicsSolver::UpdateEquation(
       result_.frames.clear();
       frameStart_ = {};
       refinement_ = 1;
-      this->MakeEquation(surface, input, options, job);
+      this->BuildEquation(surface, input, options, job);
       result_.warnings = WarningsOfPatterns(surface, options, input.reactions);
     });
 }
 
-void DynamicsSolver::MakeEquation(
+void DynamicsSolver::BuildEquation(
   const Surface& surface, const Input& input, const Options& options, const Job& job)
 {
   equation_.reset(); // frees its memory first
   substepsMade_ = 0;
-  MadeEquation made = gridfem::MakeEquation(surface, input, options, refinement_, job);
+  MadeEquation made = MakeEquation(surface, input, options, refinement_, job);
   if (frameStart_.rows() > 0)
   {
     made.equation->Start(frameStart_);
@@ -225,11 +230,11 @@ DynamicsSolver::Frame DynamicsSolver::NextFrame(
   {
     if (!equation_)
     {
-      this->MakeEquation(surface, input, options, job.Part(0.0, 0.0));
+      this->BuildEquation(surface, input, options, job.Part(0.0, 0.0));
     }
     this->MakeSubsteps(job);
-    const bool isGood =
-      LargestRatio(errors_, largestOfFrame_) <= allowedError_ && report_.end != SolveEnd::NotFinite;
+    const bool isGood = LargestRatio(errors_, largestOfFrame_) <= AllowedError(isCustom_) &&
+                        report_.end != SolveEnd::NotFinite;
     if (isGood || refinement_ == FinestRefinement)
     {
       break;
@@ -278,7 +283,7 @@ void DynamicsSolver::MakeFrames(
     if (refinement_ > 1 || !equation_)
     {
       refinement_ = 1;
-      this->MakeEquation(surface, input, options, job.Part(0.0, 0.1));
+      this->BuildEquation(surface, input, options, job.Part(0.0, 0.1));
     }
     else
     {
@@ -324,7 +329,7 @@ std::vector<std::string> DynamicsSolver::Warnings(int frame) const
   {
     warnings.push_back(WarningOf(report, tolerance_));
   }
-  if (shown.extrapolationError > allowedError_)
+  if (shown.extrapolationError > AllowedError(isCustom_))
   {
     std::ostringstream text;
     text << "Reactions or transport change so fast that a step of the solver was wrong by "

@@ -126,7 +126,7 @@ public:
 private:
   void UpdateEquation(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
-  void MakeEquation(
+  void BuildEquation(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
   void UpdateStart(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
@@ -152,8 +152,6 @@ private:
   Columns errorsSinceStart_; // the largest ones to the last frame
   double tolerance_ = 0.0;   // of the last update
   bool isCustom_ = false;    // in the last update
-  /// The largest error of a step that is accepted. The steps of named models are known to be good.
-  double allowedError_ = 0.0;
   Result result_;
 };
 

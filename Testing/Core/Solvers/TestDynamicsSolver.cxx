@@ -91,13 +91,7 @@ GivenReactions Given(int species, React react)
 {
   GivenReactions reactions;
   reactions.species = species;
-  reactions.rates = [species, react](const double* u, double* rates, Id places)
-  {
-    for (Id place = 0; place < places; ++place)
-    {
-      react(u + species * place, rates + species * place);
-    }
-  };
+  reactions.rates = species == 1 ? AtEachPlace<1>(react) : AtEachPlace<2>(react);
   return reactions;
 }
 

@@ -159,7 +159,7 @@ GivenReactions ReactionsOfFormulas(const std::string& ofU, const std::string& of
 {
   if (IsBlank(ofU))
   {
-    throw InvalidInput("The Model Custom needs a formula for Reaction U.");
+    return {};
   }
   std::vector<Formula> formulas = { { "Reaction U", ofU } };
   if (!IsBlank(ofV))
