@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <utility>
 
 namespace gridfem::testing
@@ -327,6 +329,20 @@ TriangleMesh Unweld(const TriangleMesh& mesh)
     soup.triangles.push_back({ first, first + 1, first + 2 });
   }
   return soup;
+}
+
+TriangleMesh TurnSome(TriangleMesh mesh, double part, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::bernoulli_distribution isTurned(part);
+  for (auto& triangle : mesh.triangles)
+  {
+    if (isTurned(random))
+    {
+      std::reverse(triangle.begin(), triangle.end());
+    }
+  }
+  return mesh;
 }
 
 TriangleMesh Transform(

@@ -50,6 +50,9 @@ TriangleMesh SubdivideInPlane(const TriangleMesh& mesh);
 /// Gives every triangle three points of its own, as in an STL file.
 TriangleMesh Unweld(const TriangleMesh& mesh);
 
+/// Turns a part of the triangles round, so that they face the other way.
+TriangleMesh TurnSome(TriangleMesh mesh, double part, unsigned seed);
+
 /// Maps p to scale * R p + shift, where R is the rotation by `angle` (radians) about `axis`.
 TriangleMesh Transform(const TriangleMesh& mesh, const Vec3& axis, double angle, double scale = 1.0,
   const Vec3& shift = { 0, 0, 0 });

@@ -5,13 +5,14 @@
 
 #include "Grid/TriangleMesh.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
 namespace gridfem
 {
 
-/// A mesh for normals. Its points are those of the given mesh.
+/// A mesh for normals and volumes. Its points are those of the given mesh.
 struct OrientedMesh
 {
   std::optional<TriangleMesh> mesh; // none if the given one is oriented already
@@ -21,6 +22,13 @@ struct OrientedMesh
   /// itself. Empty without copies.
   std::vector<Id> pointWithTriangle;
   Index oneSided = 0; // components that cannot be oriented, such as a Möbius strip
+
+  /// The triangles for normals and volumes.
+  /// @param given  the given mesh
+  const std::vector<std::array<Id, 3>>& TrianglesOf(const TriangleMesh& given) const
+  {
+    return mesh ? mesh->triangles : given.triangles;
+  }
 
   Id PointWithTriangle(Id point) const
   {

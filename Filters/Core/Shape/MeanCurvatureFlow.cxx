@@ -122,7 +122,9 @@ MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> s
   {
     moves_.at(point) = 0;
   }
-  const SurfaceSize size = SizeOf(mesh_->points, mesh_->triangles, options_.multigrid.threads);
+  const int threads = options_.multigrid.threads;
+  oriented_ = Orient(*mesh_, true, threads);
+  const SurfaceSize size = this->Size(mesh_->points, threads);
   startArea_ = size.area;
   startVolume_ = size.volume;
   if (options_.rescaling == Rescaling::ConstantVolume &&
@@ -326,9 +328,14 @@ std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) con
   return 1.0;
 }
 
+SurfaceSize MeanCurvatureFlow::Size(const std::vector<Vec3>& points, int threads) const
+{
+  return SizeOf(points, oriented_.TrianglesOf(*mesh_), threads);
+}
+
 FlowStep MeanCurvatureFlow::Start(const Job& job) const
 {
-  FlowStep start = Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
+  FlowStep start = Describe(this->Size(mesh_->points, job.threads));
   start.accuracy.discretization = 0.0; // the start is the input
   start.accuracy.largest = 0.0;
   start.accuracy.isTrusted = true;
@@ -382,7 +389,7 @@ FlowStep MeanCurvatureFlow::Rescale(
   const auto place = [&](const MultiVector& embedding)
   {
     points = this->WorldPoints(*moving_, embedding, threads);
-    return SizeOf(points, mesh_->triangles, threads);
+    return this->Size(points, threads);
   };
   // Every step of the flow reduces the area. A step that has not converged and adds area is
   // invalid.

@@ -5,6 +5,7 @@
 
 #include "Equations/HeldBoundary.h"
 #include "Equations/SolutionAccuracy.h"
+#include "Grid/OrientedMesh.h"
 #include "Grid/TriangleMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "Shape/MovedSurface.h"
@@ -136,10 +137,12 @@ private:
   void FillMatrix(std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job);
   std::vector<Vec3> WorldPoints(
     const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const;
+  SurfaceSize Size(const std::vector<Vec3>& points, int threads) const;
   std::optional<double> ScaleOf(double area, double volume) const;
 
   std::shared_ptr<const FiniteElementSpace> start_;
   std::shared_ptr<const TriangleMesh> mesh_;
+  OrientedMesh oriented_; // for volumes
   FlowOptions options_;
   std::vector<char> moves_; // per point: a function reaches it, and it is not fixed
   double startArea_ = 0.0;  // world units

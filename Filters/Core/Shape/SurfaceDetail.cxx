@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Grid/OrientedMesh.h"
 #include "Grid/TriangleArea.h"
 #include "Shape/MovedSurface.h"
 
@@ -166,8 +167,9 @@ SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
 
 void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int threads)
 {
-  const double wanted = SizeOf(mesh.points, mesh.triangles, threads).volume;
-  const SurfaceSize size = SizeOf(points, mesh.triangles, threads);
+  const OrientedMesh oriented = Orient(mesh, true, threads);
+  const double wanted = SizeOf(mesh.points, oriented.TrianglesOf(mesh), threads).volume;
+  const SurfaceSize size = SizeOf(points, oriented.TrianglesOf(mesh), threads);
   const double factor = std::cbrt(wanted / size.volume);
   if (std::isfinite(factor) && factor > 0.0)
   {

@@ -514,7 +514,8 @@ TEST(SignedDistance, TakesSlicesOfPartsThatTouch)
   }
 }
 
-/// Doubled triangles with the opposite orientation, as pockets, and sheets that cross in an edge.
+/// Doubled triangles with the opposite orientation, as pockets, sheets that cross in an edge, and
+/// triangles that face either way.
 TEST(SignedDistance, TakesSlicesOfSurfacesThatAreNotManifold)
 {
   TriangleMesh doubled = GeodesicSphere(12);
@@ -543,7 +544,8 @@ TEST(SignedDistance, TakesSlicesOfSurfacesThatAreNotManifold)
   {
     point = (10.0 * point).array().round() / 10.0; // points of the common edge coincide
   }
-  for (const TriangleMesh& mesh : { doubled, pockets, crossing })
+  const TriangleMesh turned = TurnSome(GeodesicSphere(12), 0.4, 1);
+  for (const TriangleMesh& mesh : { doubled, pockets, crossing, turned })
   {
     for (const Vec3& normal : { Vec3(1, 0.2, 0.1), Vec3(0.3, -1, 0.2), Vec3(-0.4, 0.53, 0.3) })
     {

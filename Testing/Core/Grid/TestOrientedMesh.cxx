@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -25,21 +24,6 @@ double VolumeOf(const TriangleMesh& mesh)
     volume += mesh.points[a].cross(mesh.points[b]).dot(mesh.points[c]) / 6.0;
   }
   return volume;
-}
-
-/// Turns a part of the triangles round.
-TriangleMesh TurnSome(TriangleMesh mesh, double part, unsigned seed)
-{
-  std::mt19937 random(seed);
-  std::bernoulli_distribution isTurned(part);
-  for (auto& triangle : mesh.triangles)
-  {
-    if (isTurned(random))
-    {
-      std::reverse(triangle.begin(), triangle.end());
-    }
-  }
-  return mesh;
 }
 
 /// Adds every triangle again, the same way round or the other.

@@ -290,6 +290,33 @@ TEST_P(MeanCurvatureFlows, WhatIsToBeKeptIsKept)
   }
 }
 
+/// The volume is that of the surface, however its triangles face.
+TEST_P(MeanCurvatureFlows, VolumesDoNotDependOnTheOrientationOfTriangles)
+{
+  const TriangleMesh torus = Torus(30, 12, 1.0, 0.4);
+  const auto twoSteps = [this](const TriangleMesh& mesh)
+  {
+    FlowOnMesh on(mesh, GetParam(), 4);
+    on.SetTimeStep(0.01);
+    on.options.rescaling = Rescaling::ConstantVolume;
+    MeanCurvatureFlow flow = on.Make();
+    flow.Advance({});
+    return std::make_pair(flow.Advance({}), flow.Points());
+  };
+  const auto [step, points] = twoSteps(torus);
+  EXPECT_NEAR(step.volume / SizeOf(torus.points, torus.triangles).volume, 1.0, 1e-9);
+  for (const TriangleMesh& mixed : { TurnSome(torus, 0.3, 1), TurnSome(torus, 0.7, 2) })
+  {
+    const auto [ofMixed, mixedPoints] = twoSteps(mixed);
+    EXPECT_NEAR(ofMixed.volume, step.volume, 1e-7);
+    EXPECT_NEAR(ofMixed.sphericity, step.sphericity, 1e-7);
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      ASSERT_LT((mixedPoints[k] - points[k]).norm(), 1e-6) << k;
+    }
+  }
+}
+
 TEST_P(MeanCurvatureFlows, AVanishingSphereEndsTheFlowAndKeepsTheLastStep)
 {
   FlowOnMesh on(GeodesicSphere(8), GetParam(), 4);

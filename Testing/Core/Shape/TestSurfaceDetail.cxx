@@ -289,6 +289,12 @@ TEST(ScaleToVolume, KeepsTheCentroidAndLeavesAloneWhatHasNoVolume)
   const double wanted = SizeOf(torus.points, torus.triangles).volume;
   EXPECT_NEAR(after.volume, wanted, 1e-12 * wanted);
   EXPECT_LT((after.centroid - before.centroid).norm(), 1e-12);
+  std::vector<Vec3> ofMixed = stretched(torus, { 1.0, 2.0, 0.7 });
+  ScaleToVolume(TurnSome(torus, 0.4, 1), ofMixed);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    EXPECT_LT((ofMixed[k] - points[k]).norm(), 1e-12) << k;
+  }
 
   const TriangleMesh sheet = FlatRectangle(4, 4);
   for (const auto& [mesh, factors] : { std::pair<TriangleMesh, Vec3>(torus, { 1, 1, -1 }),

@@ -92,6 +92,25 @@ TEST(DetailSolver, AnArrayOfOnesChangesNothingInAnyMetricAndSpace)
   }
 }
 
+/// Transfer functions of signed curvatures, and the volume that is kept.
+TEST(DetailSolver, TheOrientationOfTrianglesChangesNothing)
+{
+  const auto mesh = Ring();
+  const auto mixed = std::make_shared<const TriangleMesh>(TurnSome(*mesh, 0.4, 1));
+  DetailSolver::Options options = ByCurvature();
+  options.detailScale = 3.0;
+  options.keepVolume = true;
+  for (const auto transfer : { CurvatureTransfer::LargePositive, CurvatureTransfer::LargeNegative })
+  {
+    options.transferFunction = transfer;
+    const auto solve = [&](const std::shared_ptr<const TriangleMesh>& surface)
+    { return DetailSolver::Solve(surface, HalfSelected(*mesh), options, Coarse()).points; };
+    const std::vector<Vec3> points = solve(mesh);
+    EXPECT_GT(LargestMove(points, mesh->points), 0.01);
+    EXPECT_LT(LargestMove(solve(mixed), points), 1e-7);
+  }
+}
+
 TEST(DetailSolver, AnIterationThatEndedEarlyIsNeitherHiddenNorKept)
 {
   const auto mesh = Ring();

@@ -68,8 +68,8 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
 {
   Move(mesh, points, dataType, threads, output);
   const OrientedMesh oriented = Orient(mesh, true, threads);
-  const auto& triangles = oriented.mesh ? oriented.mesh->triangles : mesh.triangles;
-  const std::vector<Vec3> normals = NormalsAtPoints(mesh.points, triangles, threads);
+  const std::vector<Vec3> normals =
+    NormalsAtPoints(mesh.points, oriented.TrianglesOf(mesh), threads);
   std::vector<double> along(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {
