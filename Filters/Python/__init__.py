@@ -39,9 +39,9 @@ except ImportError:
     from ._with_vtk import solve as _solve_numbered, surface, triangulate as _triangulate
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "distance_matrix", "divergence", "dynamics", "farthest_points", "flow", "gaussian_field",
-           "gradient", "interpolate", "krige", "parameterize", "path", "poisson", "signatures",
-           "signed_distance", "spectrum", "stitch"]
+           "distance_matrix", "divergence", "dynamics", "expand", "farthest_points", "flow",
+           "gaussian_field", "gradient", "interpolate", "krige", "parameterize", "path", "poisson",
+           "signatures", "signed_distance", "spectrum", "stitch", "surrogates"]
 
 
 def arrays(mesh):
@@ -151,6 +151,33 @@ def signatures(points, cells, number=100, **properties):
     """
     results = _solve("SpectralSignatures", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["HeatKernelSignature"], results["WaveKernelSignature"]
+
+
+def expand(points, cells, values, number=100, **properties):
+    """Expands values at the points in the eigenfunctions of the Laplace operator.
+
+    Returns the eigenvalues (K), the coefficients (K, or K rows for values with columns), and the errors
+    that remain after each mode, as fractions of the error after the constants. K is `number`, or more to
+    complete a group of equal eigenvalues. See `spectrum` for the unit of the eigenvalues and the size of
+    the eigenfunctions.
+    """
+    results = _solve("SpectralSignatures", points, cells, {"values": values},
+                     {"NumberOfModes": number, "FilterType": "LowPass", "LastMode": 0, **properties})
+    return results["Eigenvalue"], results["Coefficient"], results["RemainingError"]
+
+
+def surrogates(points, cells, values, count=10, number=100, **properties):
+    """Makes random maps that are as smooth as the given values at the points.
+
+    Returns an array (count, N), or (count, N, C) for values with C columns. In each group of `number` modes
+    the maps have the energy of the values, and the same products between the columns. What no mode
+    describes is missing: `expand` tells how much. Another Seed gives other maps.
+    """
+    results = _solve("SpectralSignatures", points, cells, {"values": values},
+                     {"NumberOfModes": number, "FilterType": "Surrogates", "NumberOfSurrogates": count,
+                      **properties})
+    maps = results["Surrogates"].reshape(len(points), -1, *numpy.shape(values)[1:])
+    return numpy.moveaxis(maps, 1, 0)
 
 
 def poisson(points, cells, values=None, gradients=None, weights=None, held=None, gradient_scale=None,

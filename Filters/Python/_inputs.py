@@ -110,7 +110,7 @@ def placed(filter_name, array, values, points, cells, on=None):
 # The values of choices by name, in the order of their numbers.
 CHOICES = {
     "Amount": ("DiffusionTime", "FWHM", "Sigma"),
-    "FilterType": ("None", "LowPass", "HighPass", "BandPass"),
+    "FilterType": ("None", "LowPass", "HighPass", "BandPass", "Surrogates"),
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "MapType": ("Conformal", "Isometric", "Circle"),
     "PathType": ("ToNearestSource", "InOrder", "Closed", "AllPairs"),

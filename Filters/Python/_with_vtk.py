@@ -76,6 +76,14 @@ class _Results:
     def __init__(self, outputs):
         self.output = outputs[0]
         self.outputs = [output for output in outputs if output.IsA("vtkPolyData")]
+        self.tables = [output for output in outputs if output.IsA("vtkTable")]
+
+    def _columns(self, stem):
+        """Returns all point arrays whose names begin with the stem, side by side."""
+        points = self.output.GetPointData()
+        names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
+        columns = [self[name] for name in names if name.startswith(stem)]
+        return numpy.column_stack(columns) if columns else None
 
     def __getitem__(self, name):
         if name == "Points":
@@ -87,11 +95,11 @@ class _Results:
             points = self.output.GetPointData()
             return numpy.column_stack([self["U"], self["V"]]) if points.HasArray("V") else self["U"]
         if name == "Samples":
-            points = self.output.GetPointData()
-            names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
-            names = ([name for name in names if name.startswith("Sample")]
-                     or ["Prediction", "PredictionStandardDeviation"])
-            return numpy.column_stack([self[name] for name in names])
+            samples = self._columns("Sample")
+            return samples if samples is not None else numpy.column_stack(
+                [self["Prediction"], self["PredictionStandardDeviation"]])
+        if name == "Surrogates":
+            return self._columns("Surrogate")
         if name == "FlatPoints":
             flat = vtk_to_numpy(self.outputs[-1].GetPoints().GetData())[:, :2]
             return flat - flat.min(axis=0)
@@ -101,8 +109,9 @@ class _Results:
             cells = self.outputs[-1].GetCellData()
             return numpy.column_stack([vtk_to_numpy(cells.GetArray(kind + "Distortion"))
                                        for kind in ("Angle", "Area")])
-        attributes = (data for output in self.outputs for data in (
-            output.GetPointData(), output.GetCellData(), output.GetFieldData()))
+        attributes = [data for output in self.outputs for data in (
+            output.GetPointData(), output.GetCellData(), output.GetFieldData())]
+        attributes += [table.GetRowData() for table in self.tables]
         found = next((a for a in attributes if a.HasArray(name)), None)
         if found is None:
             raise KeyError(name)

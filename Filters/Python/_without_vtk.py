@@ -74,7 +74,7 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=(), reac
         raise Error(_out_of_memory(name, properties)) from None
     except ValueError as error:
         raise Error(str(error)) from None
-    results = {array: values[:, 0] if values.shape[1] == 1 and array not in ("Modes", "Samples") else values
+    results = {array: values[:, 0] if values.shape[1] == 1 and array not in ("Modes", "Samples", "Surrogates") else values
                for array, values in results.items()}
     for array in {"Solution", "Diffused", "Interpolated", "Filtered"} & results.keys():
         if "values" in arrays:

@@ -19,9 +19,7 @@
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 
-#include <iomanip>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,13 +28,6 @@ vtkStandardNewMacro(vtkGaussianField);
 
 namespace
 {
-
-std::string NameOfSample(gridfem::Id number)
-{
-  std::ostringstream name;
-  name << "Sample" << std::setw(3) << std::setfill('0') << number;
-  return name.str();
-}
 
 /// Coincident points have copies of one observation. The first of them gets the mean.
 gridfem::PointValues OnePerPlace(
@@ -194,7 +185,7 @@ void vtkGaussianField::WriteResult(vtkPolyData* output)
   {
     for (gridfem::Id column = 0; column < result.atPoints.cols(); ++column)
     {
-      add(NameOfSample(column), result.atPoints.col(column));
+      add(gridfem::NumberedName("Sample", column), result.atPoints.col(column));
     }
     points->SetActiveScalars(isPredicted ? "Prediction" : "Sample000");
   }

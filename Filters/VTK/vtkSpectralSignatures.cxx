@@ -154,6 +154,8 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   options.filterType = static_cast<gridfem::ModeFilter>(this->FilterType);
   options.firstMode = this->FirstMode;
   options.lastMode = this->LastMode;
+  options.numberOfSurrogates = this->NumberOfSurrogates;
+  options.seed = this->Seed;
   data.Given.announce = [&](const std::string& cost, bool takesHours)
   { state.bridge.Announce(cost, takesHours); };
   data.Result = &data.Solver.Update(
@@ -172,6 +174,10 @@ void vtkSpectralSignatures::FindValues()
     return;
   }
   data.Value = surface.FindOn(data.Mesh, 0, "Value Array");
+  if (this->FilterType == Surrogates && !data.Value.array)
+  {
+    throw gridfem::MissingChoice("Choose a Value Array that Surrogates are made of.");
+  }
   data.Given.values = surface.Given(data.Value);
   if (data.Given.values)
   {
@@ -198,7 +204,11 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
   {
     gridfem::WriteModeDistances(*data.Result, precision, output);
   }
-  if (hasPoints && this->FilterType != NoFilter)
+  if (hasPoints && this->FilterType == Surrogates)
+  {
+    gridfem::WriteSurrogates(*data.Result, data.Value.array->GetDataType(), output);
+  }
+  else if (hasPoints && this->FilterType != NoFilter)
   {
     this->WriteFiltered(input, output);
   }
@@ -248,4 +258,6 @@ void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FilterType: " << this->FilterType << "\n";
   os << indent << "FirstMode: " << this->FirstMode << "\n";
   os << indent << "LastMode: " << this->LastMode << "\n";
+  os << indent << "NumberOfSurrogates: " << this->NumberOfSurrogates << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
 }

@@ -13,6 +13,9 @@
  * - Biharmonic distance: √(Σ (φ(x) - φ(y))² / λ²), from every point to the nearest source.
  * - Diffusion distance: √(area Σ exp(-2 λ t) (φ(x) - φ(y))²) with t = DiffusionTime, from every
  *   point to the nearest source.
+ * - Surrogates: random arrays with the energy of a point array in each group of modes. Constant
+ *   modes stay; the groups after them have 3, 5, 7, ... modes, as on a sphere. They are samples for
+ *   tests of a hypothesis that needs maps as smooth as the given one.
  * - Low, high and band pass: the part of a point array, or of the shape itself, that consists of
  *   some of the modes. The function and the modes are linear on every triangle, and their products
  *   are integrated exactly.
@@ -39,11 +42,13 @@
  * - point data, with sources: `BiharmonicDistance` (1 component, world length). It is NaN on
  *   components of the surface without a source.
  * - point data, with sources: `DiffusionDistance` (1 component, no unit).
- * - point data, with a FilterType: `Filtered`, with the components of the array. It is of bytes if
- *   the array holds colors, float if it is float, else double. If the coordinates are filtered, the
- *   points move to their filtered places. The output then has `Displacement` and
+ * - point data, with another FilterType: `Filtered`, with the components of the array. It is of
+ * bytes if the array holds colors, float if it is float, else double. If the coordinates are
+ * filtered, the points move to their filtered places. The output then has `Displacement` and
  *   `NormalDisplacement`, and normals follow. The clip, basis and modes belong to the old shape and
  *   are left out.
+ * - point data, with the FilterType Surrogates: `Surrogate000`, `Surrogate001`, ..., with the
+ *   components of the array, float if the array is float, else double.
  * - field data, one tuple per scale: `HeatTimes` (double, world length squared) and `WaveEnergies`
  *   (double, logarithms of eigenvalues in world units).
  * - field data: `Converged` (int, 1), if modes were computed.
@@ -52,7 +57,8 @@
  * (double). With a FilterType it also has the following columns, with the components of the values:
  * - `Coefficient` (double): the share of the mode in the values.
  * - `RemainingError` (double): the root of the integral of the squared error of the best sum of the
- *   modes up to the row, relative to this number after the constant modes.
+ *   modes up to the row, relative to this number after the constant modes. If no mode is constant,
+ *   it is relative to the values themselves.
  *
  * SetInputArrayToProcess(0, ...) chooses the `ValueArray` to filter: a point array with any number
  * of components. Without it the filter takes the coordinates. The filter uses all shared
@@ -120,7 +126,8 @@ public:
     NoFilter = 0,
     LowPass = 1,
     HighPass = 2,
-    BandPass = 3
+    BandPass = 3,
+    Surrogates = 4
   };
   ///@{
   /**
@@ -130,8 +137,9 @@ public:
    * - HighPass: remove modes 0..FirstMode - 1 and keep the rest, including the part that no mode
    *   describes.
    * - BandPass: keep modes FirstMode..LastMode.
+   * - Surrogates: make random arrays of all modes. They need a ValueArray.
    */
-  vtkSetInRangeMacro(FilterType, int, NoFilter, BandPass);
+  vtkSetInRangeMacro(FilterType, int, NoFilter, Surrogates);
   vtkGetMacro(FilterType, int);
   ///@}
 
@@ -150,6 +158,23 @@ public:
    */
   vtkSetInRangeMacro(LastMode, int, 0, VTK_INT_MAX);
   vtkGetMacro(LastMode, int);
+  ///@}
+
+  ///@{
+  /**
+   * The number of random arrays with the FilterType Surrogates. 1..10000, default 10.
+   */
+  vtkSetInRangeMacro(NumberOfSurrogates, int, 1, 10000);
+  vtkGetMacro(NumberOfSurrogates, int);
+  ///@}
+
+  ///@{
+  /**
+   * Another seed gives other surrogates. The same seed gives the same ones on any number of
+   * threads. 0 or more, default 1.
+   */
+  vtkSetInRangeMacro(Seed, int, 0, VTK_INT_MAX);
+  vtkGetMacro(Seed, int);
   ///@}
 
   /**
@@ -178,6 +203,8 @@ protected:
   int FilterType = NoFilter;
   int FirstMode = 1;
   int LastMode = 20;
+  int NumberOfSurrogates = 10;
+  int Seed = 1;
 
 private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;

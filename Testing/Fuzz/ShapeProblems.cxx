@@ -149,7 +149,7 @@ void ChangeDetail(Choice& choice, RandomSurface& surface, Outcome& outcome)
   outcome.Add(solution.report);
   outcome.RequireFinite(solution.coefficients, "the detail");
   std::vector<Vec3> points = mesh.points;
-  ScaleToVolume(mesh, points);
+  ScaleToVolume(mesh, UsedPoints(mesh), points);
   outcome.Require(AreFinite(mesh, points), "a scaled point is not finite");
 }
 

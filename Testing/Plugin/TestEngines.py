@@ -83,6 +83,12 @@ class Engines(unittest.TestCase):
     def test_signatures(self):
         self.compare(lambda g, p, c, **o: g.signatures(p, c, 10, NumberOfScales=3, **o))
 
+    def test_expansions_and_surrogates(self):
+        for columns in (0, slice(0, 2)):
+            self.compare(lambda g, p, c, **o: g.expand(p, c, p[:, columns], 12, **o))
+            self.compare(lambda g, p, c, **o: (g.surrogates(p, c, p[:, columns], 3, 12, Seed=4, **o),))
+        self.compare(lambda g, p, c, **o: (g.surrogates(p, c, p[:, 0], 1, 12, **o),))
+
     def test_the_depth_for_an_accuracy(self):
         self.compare(lambda g, p, c, **o: g.poisson(
             p, c, numpy.sin(4 * p[:, 0]), WantedError=0.03, **o))

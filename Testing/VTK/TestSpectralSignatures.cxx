@@ -219,6 +219,28 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
   expect(Signatures::BandPass, 8, 1000, nothing);
 }
 
+TEST_F(SpectralSignaturesFilter, SurrogatesAreArraysLikeTheValues)
+{
+  auto data = this->WithModes(25);
+  filter->SetInputData(data);
+  filter->SetFilterType(Signatures::Surrogates);
+  filter->SetNumberOfSurrogates(2);
+  EXPECT_TRUE(this->Run("Surrogate000").empty()) << "without a Value Array";
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("Value Array"), std::string::npos) << messages.warnings[0];
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mode007");
+  const auto first = this->Run("Surrogate000");
+  ASSERT_EQ(first.size(), static_cast<std::size_t>(data->GetNumberOfPoints()));
+  vtkPointData* points = filter->GetOutput()->GetPointData();
+  EXPECT_TRUE(points->HasArray("Surrogate001"));
+  EXPECT_FALSE(points->HasArray("Surrogate002"));
+  EXPECT_FALSE(points->HasArray("Filtered"));
+  EXPECT_STREQ(points->GetScalars()->GetName(), "Surrogate000");
+  EXPECT_GT(Difference(first, PointValues(data, "Mode007")), 0.1);
+  filter->SetSeed(2);
+  EXPECT_GT(Difference(this->Run("Surrogate000"), first), 0.1);
+}
+
 TEST_F(SpectralSignaturesFilter, TheTableHasCoefficientsAndWhatRemains)
 {
   auto data = this->WithModes(25);

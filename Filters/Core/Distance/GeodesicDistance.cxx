@@ -315,16 +315,11 @@ std::vector<double> GeodesicDistance::ZeroesOnCurve(
 }
 
 std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance,
-  const SurfaceCurve& curve, const std::vector<double>& near, const std::vector<double>& straight,
-  const Job& job) const
+  const SurfaceCurve& curve, const std::vector<double>& near, double reach,
+  const std::vector<double>& straight, const Job& job) const
 {
   const std::vector<double> zero = this->ZeroesOnCurve(distance, curve);
   const MultiVector value = space_->ValuesAtPoints(distance, job);
-  double reach = 0.0;
-  for (const double known : near)
-  {
-    reach = std::fmax(reach, std::abs(known));
-  }
   std::vector<double> shifted(component_.size(), NaN);
   for (std::size_t point = 0; point < component_.size(); ++point)
   {
@@ -333,7 +328,7 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
       continue;
     }
     const double solved = value(static_cast<Id>(point), 0) - zero[component_[point]];
-    const bool isNear = !std::isnan(near[point]) && reach > 0.0;
+    const bool isNear = std::abs(near[point]) < reach; // not NaN either
     const double share = isNear ? 1.0 - std::abs(near[point]) / reach : 0.0;
     const double mixed = isNear ? share * near[point] + (1.0 - share) * solved : solved;
     const auto side = curve.side[point];
@@ -432,11 +427,12 @@ DistanceField GeodesicDistance::FromCurve(
   const std::vector<double> near = DistancesNear(curve, *mesh_, reach, job.threads);
   const std::vector<double> straight =
     DistancesThroughSpace(*mesh_, PiecesOf(curve, *mesh_), job.threads);
-  return this->FromAll({ LoadOfCurve(HeatSpace(*space_), curve),
-                         [&](const MultiVector& heat, const Job& part)
-                         { return this->LoadOfSignedDistance(heat, curve, near, part); },
-                         [&](const MultiVector& distance, const Job& part)
-                         { return this->ShiftedToCurve(distance, curve, near, straight, part); } },
+  return this->FromAll(
+    { LoadOfCurve(HeatSpace(*space_), curve),
+      [&](const MultiVector& heat, const Job& part)
+      { return this->LoadOfSignedDistance(heat, curve, near, part); },
+      [&](const MultiVector& distance, const Job& part)
+      { return this->ShiftedToCurve(distance, curve, near, reach, straight, part); } },
     solve, job.Part(0.05, 1.0));
 }
 

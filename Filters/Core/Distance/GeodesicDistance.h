@@ -127,7 +127,8 @@ private:
     const SourceMarks& marks, const Job& job) const;
   std::vector<double> ZeroesOnCurve(const MultiVector& distance, const SurfaceCurve& curve) const;
   std::vector<double> ShiftedToCurve(const MultiVector& distance, const SurfaceCurve& curve,
-    const std::vector<double>& near, const std::vector<double>& straight, const Job& job) const;
+    const std::vector<double>& near, double reach, const std::vector<double>& straight,
+    const Job& job) const;
 
   std::shared_ptr<const FiniteElementSpace> space_;
   std::shared_ptr<const TriangleMesh> mesh_;

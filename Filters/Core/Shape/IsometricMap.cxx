@@ -149,7 +149,7 @@ public:
     double energy = this->EnergyOf(map.plane);
     if (!std::isfinite(energy))
     {
-      map.gain = 1.0;
+      map.gain = std::numeric_limits<double>::quiet_NaN();
       return map;
     }
     this->Differentiate(map.plane);

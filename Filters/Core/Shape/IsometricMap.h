@@ -17,7 +17,7 @@ struct PlaneMap
   MultiVector plane; // a row of two coordinates for each vertex
   bool hasConverged = true;
   int steps = 0;
-  double gain = 0.0; // part of the energy that another step would take away
+  double gain = 0.0; // part of the energy that another step would take away; NaN: no step was found
 };
 
 /// Minimizes the symmetric Dirichlet energy ∫ |J|² + |J⁻¹|², where J is the derivative of the map

@@ -147,18 +147,23 @@ void MeanCurvatureFlow::GoTo(int step, MultiVector shape)
   shape_ = std::move(shape);
 }
 
+/// Points that a new space has lost, because their triangles have no area left, stay where they
+/// are.
 std::vector<Vec3> MeanCurvatureFlow::WorldPoints(
   const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const
 {
   const MultiVector position = space.ValuesAtPoints(embedding, job);
-  std::vector<Vec3> points(mesh_->points.size());
+  const std::vector<char> isReached = options_.rebuild ? space.PointsWithFunctions() : moves_;
+  std::vector<Vec3> points = options_.rebuild ? this->Points(job) : mesh_->points;
   ParallelRanges(static_cast<Id>(points.size()), job.threads,
     [&](Id begin, Id end)
     {
       for (Id k = begin; k < end; ++k)
       {
-        points[k] = moves_[k] ? Vec3(space.Origin() + space.UnitLength() * RowOf(position, k))
-                              : mesh_->points[k];
+        if (moves_[k] && isReached[k])
+        {
+          points[k] = space.Origin() + space.UnitLength() * RowOf(position, k);
+        }
       }
     });
   return points;
@@ -188,6 +193,13 @@ std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
 /// @return  number of singular samples
 Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
 {
+  if (options_.rebuild)
+  {
+    multigrid_.reset(); // frees their memory first
+    boundary_.reset();
+    moving_.reset();
+    mass_ = {};
+  }
   if (step_ == 0)
   {
     moving_ = start_->Copy(); // its own metric, because the metric of its embedding is rounded
@@ -196,10 +208,6 @@ Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
   }
   if (options_.rebuild)
   {
-    multigrid_.reset(); // frees their memory first
-    boundary_.reset();
-    moving_.reset();
-    mass_ = {};
     try
     {
       moving_ = options_.rebuild({ this->Points(job), mesh_->triangles }, job);

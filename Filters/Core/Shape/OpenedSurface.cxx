@@ -1,6 +1,7 @@
 #include "Shape/OpenedSurface.h"
 
 #include "Base/Errors.h"
+#include "Grid/CopiedTriangles.h"
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceSides.h"
 #include "Grid/TriangleArea.h"
@@ -32,15 +33,9 @@ HalfEdge AfterTurn(HalfEdge corner, bool isTurned)
   return isTurned ? 2 - corner : corner;
 }
 
-Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int threads)
+/// @param place  of each point
+Sheets FindSheets(const TriangleMesh& mesh, const Array<Index>& place)
 {
-  RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "sides of triangles");
-  Array<Index> place(mesh.points.size());
-  std::iota(place.begin(), place.end(), 0);
-  if (weldsCoincidentPoints)
-  {
-    place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh, threads), threads);
-  }
   const Neighbors neighbors = FindNeighbors(SortedSides(mesh, place), mesh.triangles.size());
   std::vector<signed char> side;
   Sheets sheets;
@@ -79,6 +74,33 @@ Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int thre
         sheets.triangles.twin[halfEdge(t, corner)] = halfEdge(neighbor.triangle, neighbor.corner);
       }
     }
+  }
+  return sheets;
+}
+
+/// Leaves out triangles that have the corners of an earlier one. An edge would have too many sides.
+Sheets FindSheets(const TriangleMesh& mesh, bool weldsCoincidentPoints, int threads)
+{
+  RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "sides of triangles");
+  Array<Index> place(mesh.points.size());
+  std::iota(place.begin(), place.end(), 0);
+  if (weldsCoincidentPoints)
+  {
+    place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh, threads), threads);
+  }
+  const std::vector<char> isCopy = CopiedTriangles(mesh, place, threads);
+  if (isCopy.empty())
+  {
+    return FindSheets(mesh, place);
+  }
+  TriangleMesh once = mesh;
+  std::vector<Id> source(mesh.triangles.size());
+  std::iota(source.begin(), source.end(), 0);
+  KeepTriangles(once, source, [&isCopy](std::size_t t) { return !isCopy[t]; });
+  Sheets sheets = FindSheets(once, place);
+  for (Id& triangle : sheets.source)
+  {
+    triangle = source[triangle];
   }
   return sheets;
 }

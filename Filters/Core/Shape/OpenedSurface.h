@@ -47,11 +47,11 @@ struct OpeningOptions
   bool weldCoincidentPoints = true;
 };
 
-/// Divides a surface into disks, one per connected component. Triangles with two equal corners are
-/// left out. Surfaces with one side are cut where triangles face against each other. Handles are
-/// cut along shortest loops of edges (Erickson and Whittlesey 2005), which run to the boundary
-/// along shortest paths of edges. Same result for any number of threads. Throws InvalidInput if no
-/// triangle has three different corners, and Aborted.
+/// Divides a surface into disks, one per connected component. Triangles with two equal corners, and
+/// triangles with the corners of an earlier one, are left out. Surfaces with one side are cut where
+/// triangles face against each other. Handles are cut along shortest loops of edges (Erickson and
+/// Whittlesey 2005), which run to the boundary along shortest paths of edges. Same result for any
+/// number of threads. Throws InvalidInput if no triangle has three different corners, and Aborted.
 std::vector<Disk> OpenToDisks(
   const TriangleMesh& mesh, const OpeningOptions& options, const Job& job = {});
 

@@ -126,11 +126,11 @@ private:
     {
       weight_.push_back(std::max(Smallest, std::pow(Negligible / std::max(lost, Negligible), 4)));
     }
-    const SolutionAccuracy accuracy =
-      projection_ ? projection_->accuracy : SolutionAccuracy::Exact();
+    const std::unique_ptr<L2Projection> before = std::move(projection_);
     weighted_ = space_.WithWeightedMass(weight_, job.Part(0.0, 0.2));
     projection_ = std::make_unique<L2Projection>(*weighted_, options_, job.Part(0.2, 1.0));
-    projection_->accuracy = accuracy;
+    projection_->accuracy = before ? before->accuracy : SolutionAccuracy::Exact();
+    projection_->report = before ? before->report : SolveReport::Solved();
   }
 
   const SurfaceSpace& space_;

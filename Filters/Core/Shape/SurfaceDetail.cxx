@@ -165,17 +165,19 @@ SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   return signal;
 }
 
-void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int threads)
+void ScaleToVolume(
+  const TriangleMesh& mesh, const std::vector<char>& moves, std::vector<Vec3>& points, int threads)
 {
   const OrientedMesh oriented = Orient(mesh, true, threads);
   const double wanted = SizeOf(mesh.points, oriented.TrianglesOf(mesh), threads).volume;
   const SurfaceSize size = SizeOf(points, oriented.TrianglesOf(mesh), threads);
   const double factor = std::cbrt(wanted / size.volume);
-  if (std::isfinite(factor) && factor > 0.0)
+  const bool isPossible = std::isfinite(factor) && factor > 0.0;
+  for (std::size_t k = 0; isPossible && k < points.size(); ++k)
   {
-    for (Vec3& point : points)
+    if (moves[k])
     {
-      point = size.centroid + factor * (point - size.centroid);
+      points[k] = size.centroid + factor * (points[k] - size.centroid);
     }
   }
 }

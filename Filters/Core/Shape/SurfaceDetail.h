@@ -73,9 +73,11 @@ SignalInSpace ShapeInSpace(const FiniteElementSpace& space, const Job& job = {})
 SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   const MultigridOptions& multigrid, const SolveOptions& solve, const Job& job = {});
 
-/// Scales the points of a moved mesh about their centroid to the volume of the mesh. Leaves them
-/// alone if that is impossible, because a volume is 0 or has turned inside out.
-void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int threads = 0);
+/// Scales the points of a moved mesh about the centroid of its area to the volume of the mesh.
+/// Leaves them alone if that is impossible, because a volume is 0 or has turned inside out.
+/// @param moves  a flag for each point; the other points stay
+void ScaleToVolume(const TriangleMesh& mesh, const std::vector<char>& moves,
+  std::vector<Vec3>& points, int threads = 0);
 
 } // namespace gridfem
 

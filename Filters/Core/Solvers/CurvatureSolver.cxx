@@ -6,14 +6,26 @@
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace gridfem
 {
 namespace
 {
 
+/// Whether each point has a direction. Points without a triangle that has an area have none.
+std::vector<char> HaveDirections(const std::vector<Vec3>& directions)
+{
+  std::vector<char> have(directions.size());
+  std::transform(directions.begin(), directions.end(), have.begin(),
+    [](const Vec3& direction) { return direction.squaredNorm() > 0.0; });
+  return have;
+}
+
 /// The columns that CurvatureSolver::Numbers names.
-MultiVector NumbersOf(const PrincipalCurvatures& curvatures, double area)
+/// @param isFitted  the other points do not count in the bending
+MultiVector NumbersOf(
+  const PrincipalCurvatures& curvatures, const std::vector<char>& isFitted, double area)
 {
   MultiVector numbers(
     static_cast<Id>(curvatures.minimum.size()), static_cast<Id>(CurvatureSolver::Numbers.size()));
@@ -22,8 +34,9 @@ MultiVector NumbersOf(const PrincipalCurvatures& curvatures, double area)
   {
     const double least = curvatures.minimum[point];
     const double most = curvatures.maximum[point];
-    mean[point] = 0.5 * (least + most);
-    numbers.row(point) << least, most, mean[point], least * most, ShapeIndex(least, most), 0.0;
+    const double half = 0.5 * (least + most);
+    mean[point] = isFitted[point] ? half : std::numeric_limits<double>::quiet_NaN();
+    numbers.row(point) << least, most, half, least * most, ShapeIndex(least, most), 0.0;
   }
   const std::vector<double> bending = BendingOf(mean, area);
   numbers.rightCols(1) = Eigen::Map<const Eigen::VectorXd>(bending.data(), numbers.rows());
@@ -90,13 +103,10 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
     CurvaturesOf(surface, options.smoothingScale, options.equation, facts, job);
   result_.report = std::move(facts.smoothing);
   result_.turned = facts.turned;
-  result_.numbers = NumbersOf(curvatures, SurfaceArea(surface.Mesh()));
+  const std::vector<char> isFitted = HaveDirections(curvatures.minimumDirection);
+  result_.numbers = NumbersOf(curvatures, isFitted, SurfaceArea(surface.Mesh()));
   result_.minimumDirection = RowsOf(curvatures.minimumDirection);
   result_.maximumDirection = RowsOf(curvatures.maximumDirection);
-  // Points without a triangle that has an area have no direction.
-  std::vector<char> isFitted(curvatures.minimumDirection.size());
-  std::transform(curvatures.minimumDirection.begin(), curvatures.minimumDirection.end(),
-    isFitted.begin(), [](const Vec3& direction) { return direction.squaredNorm() > 0.0; });
   for (MultiVector* values :
     { &result_.numbers, &result_.minimumDirection, &result_.maximumDirection })
   {

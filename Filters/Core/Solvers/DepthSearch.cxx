@@ -16,6 +16,13 @@ namespace
 /// depth on the way costs a sixteenth.
 constexpr int LongestStep = 2;
 
+/// Returns the wanted depth, or the largest before it that is near enough and fits into memory.
+int StepTowards(const TriangleMesh& mesh, int wanted, int depth, FunctionKind kind)
+{
+  const int next = std::min({ wanted, depth + LongestStep, MaximumDepth });
+  return next == depth ? depth : FittingDepth(mesh, next, depth, kind);
+}
+
 } // namespace
 
 void DepthSearch::Judge(
@@ -32,7 +39,7 @@ void DepthSearch::Judge(
   if (!isReached_)
   {
     next = error > wanted ? DepthForAccuracy({ error }, depth_, wanted) : depth_ + 1;
-    next = FittingDepth(mesh, std::min({ next, depth_ + LongestStep, MaximumDepth }), depth_, kind);
+    next = StepTowards(mesh, next, depth_, kind);
   }
   wasAccurate_ = isAccurate;
   isFound_ = next == depth_;
@@ -51,9 +58,9 @@ int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& error
   int next = DepthForAccuracy(errors, depth, accuracy);
   if (next == depth && !isConfirmed)
   {
-    next = std::min(depth + 1, MaximumDepth);
+    next = depth + 1;
   }
-  return next == depth || FitsMemory(mesh, next, kind) ? next : depth;
+  return StepTowards(mesh, next, depth, kind);
 }
 
 } // namespace gridfem

@@ -334,7 +334,7 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
     }
     if (options.keepVolume)
     {
-      ScaleToVolume(mesh, result_.points, threads);
+      ScaleToVolume(mesh, space_->PointsWithFunctions(), result_.points, threads);
     }
   }
   result_.selected = fade_ ? fade_->values : MultiVector();

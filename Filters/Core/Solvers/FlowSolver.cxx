@@ -212,11 +212,12 @@ std::vector<Vec3> FlowSolver::PointsAt(int step, const Surface& surface, const P
     this->ReturnTo(nearest);
   }
   const int first = flow_->Step();
-  while (flow_->Step() < step)
+  FlowEnd end = FlowEnd::None;
+  while (flow_->Step() < step && end == FlowEnd::None)
   {
     const double share = 1.0 / (step - first);
     const int done = flow_->Step() - first;
-    this->Advance(surface, progress.Part(done * share, (done + 1) * share));
+    end = this->Advance(surface, progress.Part(done * share, (done + 1) * share)).end;
   }
   return flow_->Points(surface.MakeJob(progress));
 }

@@ -91,6 +91,38 @@ bool NoteVertices(
   return hasSeveral;
 }
 
+/// Gives points without a vertex the vertex at their place. Triangles that are left out have such
+/// points.
+void NoteVerticesAtPlaces(const TriangleMesh& mesh, int threads, Flat& flat)
+{
+  const std::vector<char> isUsed = UsedPoints(mesh, threads);
+  bool lacksVertex = false;
+  for (std::size_t point = 0; point < isUsed.size(); ++point)
+  {
+    lacksVertex = lacksVertex || (isUsed[point] && flat.vertexOf[point] < 0);
+  }
+  if (!lacksVertex)
+  {
+    return;
+  }
+  const Array<Index> place = WeldCoincidentPoints(mesh.points, isUsed, threads);
+  std::vector<Id> vertexAt(mesh.points.size(), -1);
+  for (std::size_t point = 0; point < isUsed.size(); ++point)
+  {
+    if (flat.vertexOf[point] >= 0)
+    {
+      vertexAt[place[point]] = flat.vertexOf[point];
+    }
+  }
+  for (std::size_t point = 0; point < isUsed.size(); ++point)
+  {
+    if (isUsed[point] && flat.vertexOf[point] < 0)
+    {
+      flat.vertexOf[point] = vertexAt[place[point]];
+    }
+  }
+}
+
 /// Appends the triangles of a chart, and measures it.
 void AddTriangles(const Disk& disk, const std::vector<SideLengths>& sides, const MultiVector& plane,
   const std::vector<Id>& vertexOf, Index number, Chart& chart, Flat& flat)
@@ -184,16 +216,19 @@ std::vector<std::string> WarningsOf(const std::vector<Chart>& charts, Id triangl
     flipped += chart.flipped;
     unsettled += chart.hasConverged ? 0 : 1;
     steps = chart.hasConverged ? steps : std::max(steps, chart.steps);
-    gain = chart.hasConverged ? gain : std::max(gain, chart.gain);
+    gain = chart.hasConverged || std::isnan(chart.gain) ? gain : std::max(gain, chart.gain);
   }
   std::vector<std::string> warnings;
   if (unsettled > 0)
   {
     std::ostringstream text;
     text << std::setprecision(2) << "The isometric map of " << unsettled << " of " << charts.size()
-         << " charts has not converged after " << steps
-         << " steps. Another step would lower its energy by " << 100.0 * gain
-         << " %. The result is kept. Raise Extra Cuts.";
+         << " charts has not converged after " << steps << " steps. ";
+    if (gain > 0.0)
+    {
+      text << "Another step would lower its energy by " << 100.0 * gain << " %. ";
+    }
+    text << "The result is kept. Raise Extra Cuts.";
     warnings.push_back(text.str());
   }
   if (flipped > 0)
@@ -208,8 +243,9 @@ std::vector<std::string> WarningsOf(const std::vector<Chart>& charts, Id triangl
 
 } // namespace
 
-void ParameterizationSolver::Flatten(const TriangleMesh& mesh, MapType type, const Job& job)
+void ParameterizationSolver::Flatten(const Surface& surface, MapType type, const Job& job)
 {
+  const TriangleMesh& mesh = surface.Mesh();
   result_ = {};
   Flat& flat = result_.flat;
   flat.vertexOf.assign(mesh.points.size(), -1);
@@ -236,6 +272,10 @@ void ParameterizationSolver::Flatten(const TriangleMesh& mesh, MapType type, con
       static_cast<Index>(result_.charts.size()), chart, flat);
     result_.charts.push_back(chart);
     planes.push_back(std::move(plane.plane));
+  }
+  if (surface.UsedOptions().space.weldCoincidentPoints)
+  {
+    NoteVerticesAtPlaces(mesh, job.threads, flat);
   }
   job.Check(0.85);
   ArrangeCharts(planes);
@@ -265,7 +305,7 @@ const ParameterizationSolver::Result& ParameterizationSolver::Update(
   key = {};
   key.Add(stages.Version(OpenStage)).Add(static_cast<int>(options.mapType));
   stages.Run(
-    SolveStage, key, [&] { this->Flatten(surface.Mesh(), options.mapType, work.Part(0.2, 1.0)); });
+    SolveStage, key, [&] { this->Flatten(surface, options.mapType, work.Part(0.2, 1.0)); });
   job.Check(1.0);
   return result_;
 }

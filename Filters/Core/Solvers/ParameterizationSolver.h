@@ -88,7 +88,7 @@ public:
     const SurfaceOptions& surfaceOptions = SurfaceDefaults(), const Job& job = {});
 
 private:
-  void Flatten(const TriangleMesh& mesh, MapType type, const Job& job);
+  void Flatten(const Surface& surface, MapType type, const Job& job);
 
   std::vector<Disk> disks_;
   Result result_;

@@ -50,15 +50,18 @@ std::vector<Id> CollectPoints(
                   : given.points.front().none) +
       ". Choose at least one point of the surface.");
   }
-  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
 }
 
 std::vector<Id> JoinedIds(std::vector<Id> a, const std::vector<Id>& b)
 {
   a.insert(a.end(), b.begin(), b.end());
-  a.erase(std::unique(a.begin(), a.end()), a.end());
   return a;
+}
+
+void DropRepeated(std::vector<Id>& points)
+{
+  points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
 std::vector<std::string> WarningsOfUnreached(const std::vector<Id>& unreached, std::size_t paths)
@@ -105,15 +108,18 @@ Id PathSolver::FarthestFrom(const std::vector<Id>& points, const Job& job)
   return search_->Farthest();
 }
 
-/// Chooses the points that are missing.
+/// Chooses the points that are missing. A point that is given twice, and no other, leads to itself.
 void PathSolver::Choose(Ends& ends, bool isInOrder, const Job& job)
 {
+  const bool isOneLegGiven = isInOrder && ends.sources.size() + ends.targets.size() > 1;
   if (isInOrder)
   {
     ends.sources = JoinedIds(std::move(ends.sources), ends.targets);
     ends.targets.clear();
   }
-  else if (ends.sources.empty() && ends.targets.size() > 1)
+  DropRepeated(ends.sources);
+  DropRepeated(ends.targets);
+  if (!isInOrder && ends.sources.empty() && ends.targets.size() > 1)
   {
     ends.sources = { ends.targets.front() };
     ends.targets.erase(ends.targets.begin());
@@ -128,7 +134,7 @@ void PathSolver::Choose(Ends& ends, bool isInOrder, const Job& job)
   }
   else if (ends.targets.empty() && (!isInOrder || ends.sources.size() == 1))
   {
-    ends.targets = { this->FarthestFrom(ends.sources, job) };
+    ends.targets = { isOneLegGiven ? ends.sources.front() : this->FarthestFrom(ends.sources, job) };
   }
 }
 

@@ -99,14 +99,11 @@ void RequireFirstDegree(FunctionKind kind, const char* subject)
   }
 }
 
-bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
-{
-  return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory();
-}
-
 int FittingDepth(const TriangleMesh& mesh, int most, int least, FunctionKind kind)
 {
-  return FinestDepth(most, least, [&](int depth) { return FitsMemory(mesh, depth, kind); });
+  return FinestDepth(most, least,
+    [&](int depth)
+    { return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory(); });
 }
 
 int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint)

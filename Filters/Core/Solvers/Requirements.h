@@ -32,10 +32,8 @@ void RequireNumber(const std::string& property, double value);
 /// @param subject  plural, such as "Distances"
 void RequireFirstDegree(FunctionKind kind, const char* subject);
 
-/// Whether everything that a solver makes at this depth should fit into memory.
-bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind);
-
-/// The finest depth from `most` down that fits into memory, or `least`.
+/// The finest depth from `most` down at which everything that a solver makes should fit into
+/// memory, or `least`.
 int FittingDepth(const TriangleMesh& mesh, int most, int least, FunctionKind kind);
 
 /// A value in place of a depth. It stands for the suggested depth, or for a smaller one that fits

@@ -3,10 +3,14 @@
 #include "Base/Errors.h"
 #include "Base/UnsolvedRows.h"
 #include "Grid/Grid.h"
+#include "Grid/TriangleArea.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SurfaceFields.h"
+#include "Spectrum/SpectralSurrogates.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace gridfem
@@ -52,14 +56,21 @@ double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
   return 1.0;
 }
 
-/// A flag for each point: 1 unless all modes are 0, as they are where no triangle of any process
-/// is. Mode 0 is a constant.
-std::vector<char> PointsWithModes(const PointModes& modes)
+/// A flag for each point: 1 if it is on a triangle with an area, or if a mode is not 0 there. Modes
+/// may all be 0 on a boundary, and triangles may be those of other processes.
+std::vector<char> PointsWithModes(const PointModes& modes, const TriangleMesh& mesh)
 {
   std::vector<char> isReached(static_cast<std::size_t>(modes.values.rows()));
   for (std::size_t point = 0; point < isReached.size(); ++point)
   {
     isReached[point] = !modes.values.row(static_cast<Id>(point)).isZero(0.0);
+  }
+  for (const std::array<Id, 3>& corners : mesh.triangles)
+  {
+    if (AreaVector(mesh.points, corners).norm() > 0.0)
+    {
+      std::for_each(corners.begin(), corners.end(), [&](Id corner) { isReached[corner] = 1; });
+    }
   }
   return isReached;
 }
@@ -80,10 +91,9 @@ void RequireOnPoints(const GivenField& values)
   }
 }
 
-/// Divides the errors by the errors in one row. An error of 0 stays 0.
-MultiVector RelativeTo(Id row, MultiVector errors)
+/// Divides each column of errors by its number. An error of 0 stays 0.
+MultiVector RelativeTo(const Eigen::RowVectorXd& whole, MultiVector errors)
 {
-  const Eigen::RowVectorXd whole = errors.row(row);
   for (Id c = 0; c < errors.cols(); ++c)
   {
     errors.col(c) *= whole[c] > 0.0 ? 1.0 / whole[c] : 0.0;
@@ -104,7 +114,9 @@ std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
   }
   const bool isHigh = options.filterType == ModeFilter::HighPass;
   const int last = isHigh ? options.firstMode - 1 : options.lastMode;
-  if (options.filterType == ModeFilter::None || last < modes)
+  const bool hasBand =
+    options.filterType != ModeFilter::None && options.filterType != ModeFilter::Surrogates;
+  if (!hasBand || last < modes)
   {
     return {};
   }
@@ -122,6 +134,10 @@ const SignatureSolver::Result& SignatureSolver::Update(
   if (options.filterType != ModeFilter::None)
   {
     RequireOnPoints(input.values);
+  }
+  if (options.filterType == ModeFilter::Surrogates && !input.values)
+  {
+    throw InvalidInput("Surrogates are made of values. Choose a Value Array.");
   }
   if (options.filterType == ModeFilter::BandPass && options.firstMode > options.lastMode)
   {
@@ -154,7 +170,7 @@ void SignatureSolver::UpdateModes(
       {
         result_ = {};
         result_.modes = input.modes.modes;
-        isReached_ = PointsWithModes(*result_.modes);
+        isReached_ = PointsWithModes(*result_.modes, *input.modes.mesh);
       });
     result_.warnings.clear();
     return;
@@ -238,15 +254,19 @@ void SignatureSolver::UpdateSums(
   key = {};
   key.Add(surface.GetStages().Version(ExpansionStage));
   key.Add(options.filterType).Add(options.firstMode).Add(options.lastMode);
-  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(options, threads); });
+  key.Add(options.numberOfSurrogates).Add(options.seed);
+  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, options); });
 }
 
-/// Expands the values in the modes. Large constants would round the rest away, and are left out.
+/// Expands the values in the modes. Large constants would round the rest away, and are left out if
+/// modes describe them.
 void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input)
 {
   const PointModes& modes = *result_.modes;
+  const Index constantModes = CountZeroModes(modes); // 0 with zero boundary values
   values_ = input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
-  constants_ = LargeConstants(surface, values_, UsedPoints(mesh));
+  constants_ = constantModes > 0 ? LargeConstants(surface, values_, UsedPoints(mesh))
+                                 : Eigen::RowVectorXd::Zero(values_.cols());
   values_.rowwise() -= constants_;
   // The last column is the constant 1.
   MultiVector columns(values_.rows(), values_.cols() + 1);
@@ -255,16 +275,25 @@ void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, c
     ExpandInModes(mesh, modes, columns, surface.Threads(), surface.SumsOverProcesses());
   shares_ = expansion.shares.leftCols(values_.cols());
   result_.coefficients = shares_ + expansion.shares.rightCols(1) * constants_;
-  result_.remaining =
-    RelativeTo(CountZeroModes(modes) - 1, expansion.remaining.leftCols(values_.cols()));
+  const MultiVector remaining = expansion.remaining.leftCols(values_.cols());
+  const Eigen::RowVectorXd whole = constantModes > 0
+                                     ? Eigen::RowVectorXd(remaining.row(constantModes - 1))
+                                     : Eigen::RowVectorXd(expansion.norms.head(values_.cols()));
+  result_.remaining = RelativeTo(whole, remaining);
 }
 
-/// Adds up the modes that pass.
-void SignatureSolver::Filter(const Options& options, int threads)
+/// Adds up the modes that pass, or random shares of all modes.
+void SignatureSolver::Filter(const Surface& surface, const Options& options)
 {
   result_.filtered.resize(0, 0);
+  result_.surrogates.resize(0, 0);
   if (options.filterType == ModeFilter::None)
   {
+    return;
+  }
+  if (options.filterType == ModeFilter::Surrogates)
+  {
+    result_.surrogates = this->Surrogates(surface, options);
     return;
   }
   const PointModes& modes = *result_.modes;
@@ -274,13 +303,37 @@ void SignatureSolver::Filter(const Options& options, int threads)
   // The constants belong to the sum as a whole, or only their parts in some modes do.
   const bool areWhole = first == 0 && last + 1 >= CountZeroModes(modes);
   MultiVector sum =
-    SumOfModes(modes, areWhole ? shares_ : result_.coefficients, first, last, threads);
+    SumOfModes(modes, areWhole ? shares_ : result_.coefficients, first, last, surface.Threads());
   result_.filtered = isHigh ? MultiVector(values_ - sum) : std::move(sum);
   if (areWhole != isHigh)
   {
     result_.filtered.rowwise() += constants_;
   }
   ClearRows(isReached_, result_.filtered);
+}
+
+MultiVector SignatureSolver::Surrogates(const Surface& surface, const Options& options) const
+{
+  const PointModes& modes = *result_.modes;
+  const Id columns = shares_.cols();
+  const Id count = options.numberOfSurrogates;
+  surface.Require({ 2.0 * sizeof(double) * double(values_.rows()) * double(columns * count),
+    "Number Of Surrogates " + std::to_string(count) + " at " + std::to_string(values_.rows()) +
+      " points",
+    "Choose fewer surrogates." }); // the caller copies them
+  const Index constants = CountZeroModes(modes);
+  MultiVector shares(shares_.rows(), columns * count);
+  for (Id k = 0; k < count; ++k)
+  {
+    shares.middleCols(k * columns, columns) =
+      RotateWithinGroups(shares_, constants, static_cast<std::uint64_t>(options.seed), k);
+  }
+  MultiVector surrogates =
+    SumOfModes(modes, shares, 0, static_cast<Index>(shares.rows()), surface.Threads());
+  const Eigen::RowVectorXd constantsOfAll = constants_.replicate(1, count);
+  surrogates.rowwise() += constantsOfAll;
+  ClearRows(isReached_, surrogates);
+  return surrogates;
 }
 
 SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,

@@ -29,9 +29,10 @@ struct GivenModes
 enum class ModeFilter
 {
   None,
-  LowPass,  // up to the last mode
-  HighPass, // from the first mode on, with the part that no mode describes
-  BandPass  // from the first mode to the last
+  LowPass,   // up to the last mode
+  HighPass,  // from the first mode on, with the part that no mode describes
+  BandPass,  // from the first mode to the last
+  Surrogates // random values with the energy of these values (RotateWithinGroups)
 };
 
 class SignatureSolver
@@ -46,6 +47,8 @@ public:
     ModeFilter filterType = ModeFilter::None;
     int firstMode = 1;
     int lastMode = 20;
+    int numberOfSurrogates = 10;
+    int seed = 1;
 
     template<class Self, class Visit>
     static void ForEach(Self& self, Visit&& visit)
@@ -55,9 +58,11 @@ public:
       visit("NumberOfModes", self.numberOfModes, Within(2, 100000));
       visit("NumberOfScales", self.numberOfScales, Within(1, 1000));
       visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
-      visit("FilterType", self.filterType, Within(0, 3));
+      visit("FilterType", self.filterType, Within(0, 4));
       visit("FirstMode", self.firstMode, Within(0, Largest));
       visit("LastMode", self.lastMode, Within(0, Largest));
+      visit("NumberOfSurrogates", self.numberOfSurrogates, Within(1, 10000));
+      visit("Seed", self.seed, Within(0, Largest));
     }
   };
 
@@ -82,10 +87,11 @@ public:
     std::vector<double> biharmonicDistance;
     ///@}
     ///@{ With a filter, else without columns.
-    MultiVector filtered;
+    MultiVector filtered;     // without columns for surrogates
+    MultiVector surrogates;   // the columns of the values for each surrogate
     MultiVector coefficients; // of the modes (rows)
-    MultiVector
-      remaining; // error of the sum up to each mode, relative to the error after constants
+    MultiVector remaining;    // error of the sum up to each mode, relative to the error after
+                              // constants, or to the values if no mode is constant
     ///@}
     bool isConverged = true;
     std::vector<std::string> warnings;
@@ -109,7 +115,8 @@ private:
   void UpdateSums(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input);
-  void Filter(const Options& options, int threads);
+  void Filter(const Surface& surface, const Options& options);
+  MultiVector Surrogates(const Surface& surface, const Options& options) const;
 
   SpectrumSolver spectrum_;
   std::vector<char> isReached_; // per point: the modes have a value

@@ -317,12 +317,13 @@ ModeExpansion ExpandInModes(const TriangleMesh& mesh, const PointModes& modes, c
   const Eigen::MatrixXd shares = factor.matrixL().solve(products.topRightCorner(count, f.cols()));
   const Eigen::RowVectorXd squares = products.row(count).tail(f.cols());
   Eigen::RowVectorXd left = (squares - shares.colwise().squaredNorm()).cwiseMax(0.0);
-  ModeExpansion expansion{ factor.matrixU().solve(shares), MultiVector(count, f.cols()) };
+  ModeExpansion expansion{ factor.matrixU().solve(shares), MultiVector(count, f.cols()), {} };
   for (Id mode = count - 1; mode >= 0; --mode)
   {
     expansion.remaining.row(mode) = left.cwiseSqrt();
     left += shares.row(mode).cwiseAbs2();
   }
+  expansion.norms = left.cwiseSqrt();
   return expansion;
 }
 

@@ -73,8 +73,9 @@ std::vector<double> DiffusionDistance(
 /// Functions as sums of modes. Rows = modes, columns = functions.
 struct ModeExpansion
 {
-  MultiVector shares;    // of every mode in the best approximation by all modes
-  MultiVector remaining; // root of the integral of the squared error by the modes up to the row
+  MultiVector shares;       // of every mode in the best approximation by all modes
+  MultiVector remaining;    // root of the integral of the squared error by the modes up to the row
+  Eigen::RowVectorXd norms; // the same root before the first mode
 };
 
 /// Expands functions in modes (rows = points). The functions and the modes are linear on every

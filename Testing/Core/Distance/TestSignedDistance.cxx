@@ -234,6 +234,31 @@ TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth
   }
 }
 
+/// The corners of one long triangle are far from the line that crosses it. They do not change how
+/// exact distances near the line and solved ones are blended elsewhere.
+TEST(SignedDistance, ALongTriangleMakesNoStepElsewhere)
+{
+  constexpr int Edges = 100;
+  const TriangleMesh longOne{ { { -1, 0.5, 0.3 }, { 2, 0.45, 0.3 }, { 2, 0.55, 0.3 } },
+    { { 0, 1, 2 } } };
+  const TriangleMesh mesh = Join(FlatRectangle(Edges, Edges), longOne);
+  const Distance exact = [](const Vec3& p) { return p[0] - 0.43; };
+  const SurfaceCurve curve = DivideBy(mesh, Slice(mesh, exact));
+  for (const bool isOnHats : { false, true })
+  {
+    const std::vector<double> found = Distances(mesh, curve, isOnHats, 5);
+    double largest = 0.0; // error of the difference along an edge, in edges
+    for (int k = 0; k + 1 < (Edges + 1) * (Edges + 1); ++k)
+    {
+      const Vec3& a = mesh.points[k];
+      const Vec3& b = mesh.points[k + 1];
+      const double difference = found[k + 1] - found[k] - (exact(b) - exact(a));
+      largest = Larger(largest, (b - a).norm() < 1.5 / Edges ? Edges * std::abs(difference) : 0.0);
+    }
+    EXPECT_LT(largest, 6e-4) << isOnHats;
+  }
+}
+
 TEST(SignedDistance, FromACircleIsNegativeInside)
 {
   const TriangleMesh mesh = FlatRectangle(100, 100);

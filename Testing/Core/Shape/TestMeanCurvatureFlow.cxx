@@ -290,7 +290,8 @@ TEST_P(MeanCurvatureFlows, WhatIsToBeKeptIsKept)
   }
 }
 
-/// The volume is that of the surface, however its triangles face.
+/// The volume is that of the surface, however its triangles face. On the grid, the clip cuts pieces
+/// otherwise, and integrals have another error.
 TEST_P(MeanCurvatureFlows, VolumesDoNotDependOnTheOrientationOfTriangles)
 {
   const TriangleMesh torus = Torus(30, 12, 1.0, 0.4);
@@ -303,16 +304,17 @@ TEST_P(MeanCurvatureFlows, VolumesDoNotDependOnTheOrientationOfTriangles)
     flow.Advance({});
     return std::make_pair(flow.Advance({}), flow.Points());
   };
+  const double tolerance = GetParam() ? 1e-7 : 3e-4; // hats or grid
   const auto [step, points] = twoSteps(torus);
   EXPECT_NEAR(step.volume / SizeOf(torus.points, torus.triangles).volume, 1.0, 1e-9);
   for (const TriangleMesh& mixed : { TurnSome(torus, 0.3, 1), TurnSome(torus, 0.7, 2) })
   {
     const auto [ofMixed, mixedPoints] = twoSteps(mixed);
     EXPECT_NEAR(ofMixed.volume, step.volume, 1e-7);
-    EXPECT_NEAR(ofMixed.sphericity, step.sphericity, 1e-7);
+    EXPECT_NEAR(ofMixed.sphericity, step.sphericity, tolerance);
     for (std::size_t k = 0; k < points.size(); ++k)
     {
-      ASSERT_LT((mixedPoints[k] - points[k]).norm(), 1e-6) << k;
+      ASSERT_LT((mixedPoints[k] - points[k]).norm(), tolerance) << k;
     }
   }
 }
@@ -357,6 +359,30 @@ TEST_P(MeanCurvatureFlows, AnAbortedStepLeavesTheFlowWhereItIs)
     flow.Advance({});
     EXPECT_EQ(flow.Shape(), undisturbed.Shape());
   }
+}
+
+/// Triangles that have become flat give their points no function in the next clip.
+TEST_P(MeanCurvatureFlows, APointThatLosesItsFunctionsStaysWhereItIs)
+{
+  static constexpr Id Lost = 100;
+  FlowOnMesh on(Torus(30, 12, 1.0, 0.3), GetParam(), 4);
+  on.ClipAgain();
+  const auto rebuild = on.options.rebuild;
+  on.options.rebuild = [&rebuild](TriangleMesh moved, const Job& job)
+  {
+    auto& triangles = moved.triangles;
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
+                      [](const auto& corners)
+                      { return std::find(corners.begin(), corners.end(), Lost) != corners.end(); }),
+      triangles.end());
+    return rebuild(moved, job);
+  };
+  MeanCurvatureFlow flow = on.Make();
+  flow.Advance({});
+  const std::vector<Vec3> first = flow.Points();
+  ASSERT_EQ(flow.Advance({}).end, FlowEnd::None);
+  EXPECT_LT((flow.Points()[Lost] - first[Lost]).norm(), 1e-12);
+  EXPECT_GT((flow.Points()[0] - first[0]).norm(), 1e-4);
 }
 
 TEST_P(MeanCurvatureFlows, BackAndForthAndThreadsGiveTheSameBits)

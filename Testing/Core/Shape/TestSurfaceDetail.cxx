@@ -284,13 +284,14 @@ TEST(ScaleToVolume, KeepsTheCentroidAndLeavesAloneWhatHasNoVolume)
   const TriangleMesh torus = Torus(40, 16, 1.0, 0.3);
   std::vector<Vec3> points = stretched(torus, { 1.0, 2.0, 0.7 });
   const SurfaceSize before = SizeOf(points, torus.triangles);
-  ScaleToVolume(torus, points);
+  const std::vector<char> all(torus.points.size(), 1);
+  ScaleToVolume(torus, all, points);
   const SurfaceSize after = SizeOf(points, torus.triangles);
   const double wanted = SizeOf(torus.points, torus.triangles).volume;
   EXPECT_NEAR(after.volume, wanted, 1e-12 * wanted);
   EXPECT_LT((after.centroid - before.centroid).norm(), 1e-12);
   std::vector<Vec3> ofMixed = stretched(torus, { 1.0, 2.0, 0.7 });
-  ScaleToVolume(TurnSome(torus, 0.4, 1), ofMixed);
+  ScaleToVolume(TurnSome(torus, 0.4, 1), all, ofMixed);
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     EXPECT_LT((ofMixed[k] - points[k]).norm(), 1e-12) << k;
@@ -303,7 +304,7 @@ TEST(ScaleToVolume, KeepsTheCentroidAndLeavesAloneWhatHasNoVolume)
   {
     const std::vector<Vec3> given = stretched(mesh, factors);
     points = given;
-    ScaleToVolume(mesh, points);
+    ScaleToVolume(mesh, std::vector<char>(points.size(), 1), points);
     EXPECT_EQ(points, given);
   }
 }

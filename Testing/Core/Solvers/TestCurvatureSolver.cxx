@@ -50,6 +50,20 @@ TEST(CurvatureSolver, KnowsTheCurvaturesOfASphere)
   }
 }
 
+/// Most points are not on the surface, as with a mask. They change no value on it.
+TEST(CurvatureSolver, PointsOffTheSurfaceCountInNothing)
+{
+  TriangleMesh mesh = GeodesicSphere(12);
+  const auto onSurface = static_cast<Id>(mesh.points.size());
+  const MultiVector alone =
+    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, At(4)).numbers;
+  mesh.points.resize(3 * mesh.points.size(), Vec3(0.1, 0.2, 0.3));
+  const MultiVector numbers =
+    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, At(4)).numbers;
+  EXPECT_EQ(numbers.topRows(onSurface), alone);
+  EXPECT_TRUE(numbers.bottomRows(numbers.rows() - onSurface).array().isNaN().all());
+}
+
 TEST(CurvatureSolver, FitsAgainOnlyAfterAChangeThatCounts)
 {
   Stages stages;

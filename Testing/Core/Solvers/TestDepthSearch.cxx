@@ -130,6 +130,16 @@ TEST(DepthSearch, GoesOnlyWhereFunctionsOfItsKindFitIntoMemory)
   EXPECT_EQ(DepthWithin(room, mesh, FunctionKind::Grid), 7);
   EXPECT_LT(DepthWithin(room, mesh, FunctionKind::SmoothGrid), 7);
 }
+
+/// A depth on the way fits, although the depth that the errors ask for does not.
+TEST(DepthSearch, GoesAsNearToTheDepthOfModesAsFitsIntoMemory)
+{
+  const TriangleMesh mesh = GeodesicSphere(4);
+  const double room = std::sqrt(EstimateMemory(mesh, 8).bytes * EstimateMemory(mesh, 9).bytes);
+  const MemoryLimit limit(room);
+  EXPECT_EQ(NextDepthForModes(mesh, { 0.9 }, true, 7, 1e-3, FunctionKind::Grid), 8);
+  EXPECT_EQ(NextDepthForModes(mesh, { 0.9 }, true, 8, 1e-3, FunctionKind::Grid), 8);
+}
 #endif
 
 TEST(DepthSearch, FindsModesBetweenItsBounds)
@@ -146,5 +156,6 @@ TEST(DepthSearch, FindsModesBetweenItsBounds)
     EXPECT_EQ(next({ 0.5 * accuracy, accuracy }, true), first);
     EXPECT_EQ(next({ 0.5 * accuracy, accuracy }, false), first + 1);
     EXPECT_EQ(next({ 4.0 * accuracy }, true), first + 1);
+    EXPECT_EQ(next({ 1e4 * accuracy }, true), first + 2) << "errors of coarse grids say little";
   }
 }

@@ -71,20 +71,25 @@ TEST(FlowSolver, ContinuesWithTheBitsOfOneShot)
 TEST(FlowSolver, ShowsAStepWithTheSameBitsWhetherItIsKeptOrNot)
 {
   constexpr double OneShape = 1.0; // the last step alone is kept
-  Stages stages;
-  LocalSurface surface(stages, TurnedTorus(), At(4));
-  FlowSolver keeping;
-  keeping.Update(surface, Steps(5), {});
-  Stages otherStages;
-  LocalSurface other(otherStages, TurnedTorus(), At(4));
-  FlowSolver forgetting(OneShape);
-  forgetting.Update(other, Steps(5), {});
-  for (const int step : { 3, 4, 1, 5, 2, 0, 5 })
+  for (const bool isTracked : { true, false })
   {
-    EXPECT_EQ(forgetting.PointsAt(step, other), keeping.PointsAt(step, surface)) << step;
+    FlowSolver::Options options = Steps(5, 5e-3);
+    options.trackMetric = isTracked;
+    Stages stages;
+    LocalSurface surface(stages, TurnedTorus(), At(4));
+    FlowSolver keeping;
+    keeping.Update(surface, options, {});
+    Stages otherStages;
+    LocalSurface other(otherStages, TurnedTorus(), At(4));
+    FlowSolver forgetting(OneShape);
+    forgetting.Update(other, options, {});
+    for (const int step : { 3, 4, 1, 5, 2, 0, 5 })
+    {
+      EXPECT_EQ(forgetting.PointsAt(step, other), keeping.PointsAt(step, surface)) << step;
+    }
+    EXPECT_EQ(stages.Runs(StepStage), 5);
+    EXPECT_GT(otherStages.Runs(StepStage), 5);
   }
-  EXPECT_EQ(stages.Runs(StepStage), 5);
-  EXPECT_GT(otherStages.Runs(StepStage), 5);
 }
 
 TEST(FlowSolver, ShrinksASphereWithAnErrorThatFallsWithTheSquareOfItsEdges)

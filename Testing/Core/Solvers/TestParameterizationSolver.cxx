@@ -4,6 +4,8 @@
 #include "Base/Errors.h"
 #include "Largest.h"
 #include "Meshes.h"
+#include "Shape/DiskMap.h"
+#include "Shape/IsometricMap.h"
 
 #include <gtest/gtest.h>
 
@@ -385,6 +387,22 @@ TEST(ParameterizationSolver, SaysThatAnIsometricMapHasNotConverged)
   EXPECT_TRUE(result.flat.points.allFinite());
 }
 
+/// No step improves a map whose triangles are flipped, so no gain of a step is known.
+TEST(IsometricMap, AFlippedStartIsReturnedWithoutAGain)
+{
+  const Disk disk = OpenToDisks(FlatRectangle(4, 4), {}).front();
+  MultiVector flipped(disk.NumberOfVertices(), 2);
+  for (Index v = 0; v < disk.NumberOfVertices(); ++v)
+  {
+    flipped.row(v) << -disk.points[v].x(), disk.points[v].y();
+  }
+  const PlaneMap map = MapIsometrically(disk, DiskMap(disk).Sides(), flipped, {});
+  EXPECT_FALSE(map.hasConverged);
+  EXPECT_EQ(map.steps, 0);
+  EXPECT_TRUE(std::isnan(map.gain));
+  EXPECT_EQ(map.plane, flipped);
+}
+
 /// A closed surface faces outward, whichever way most of its triangles face. Its map shows it from
 /// outside, like all filters that ask for the side.
 TEST(ParameterizationSolver, TheMapIsSeenFromOutside)
@@ -564,6 +582,32 @@ TEST(ParameterizationSolver, EveryPieceIsAChart)
     EXPECT_EQ(mesh.points[result.flat.pointOf[vertex]], mesh.points[p]);
   }
   EXPECT_TRUE(std::is_sorted(result.flat.pointOf.begin(), result.flat.pointOf.end()));
+}
+
+/// A surface that was appended to itself has every triangle and every point twice.
+TEST(ParameterizationSolver, CopiesOfTrianglesAreLeftOut)
+{
+  const TriangleMesh plate = FlatRectangle(5, 5);
+  TriangleMesh turned = plate;
+  for (auto& triangle : turned.triangles)
+  {
+    std::swap(triangle[0], triangle[1]);
+  }
+  for (const TriangleMesh& copy : { plate, turned, Unweld(plate) })
+  {
+    const Solver::Result result = Flatten(Join(plate, copy), MapType::Conformal);
+    EXPECT_EQ(result.charts.size(), 1u);
+    EXPECT_EQ(result.flat.triangles.size(), plate.triangles.size());
+    EXPECT_EQ(Flipped(result), 0);
+    EXPECT_FALSE(result.splitsPoints);
+    const std::vector<Vec3> points = Join(plate, copy).points;
+    for (std::size_t p = 0; p < points.size(); ++p)
+    {
+      const Id vertex = result.flat.vertexOf[p];
+      ASSERT_GE(vertex, 0) << p;
+      EXPECT_EQ(points[result.flat.pointOf[vertex]], points[p]);
+    }
+  }
 }
 
 TEST(ParameterizationSolver, SameBitsOnAnyNumberOfThreads)

@@ -95,6 +95,20 @@ TEST(PathSolver, LeadsThroughPointsInOrder)
   EXPECT_NEAR(closed.paths[2].path.length, std::sqrt(5.0), 1e-12);
 }
 
+/// A point that is given twice leads to itself, not to a point that nobody has given.
+TEST(PathSolver, APointGivenTwiceLeadsToItself)
+{
+  for (const PathType type :
+    { PathType::ToNearestSource, PathType::InOrder, PathType::Closed, PathType::AllPairs })
+  {
+    const PathSolver::Result result = Solve({ 5 }, { 5 }, type);
+    EXPECT_EQ(EndsOf(result), (Ids{ { 5, 5 } }));
+    EXPECT_EQ(result.paths.front().path.length, 0.0);
+  }
+  EXPECT_EQ(EndsOf(Solve({ 5, 5 }, {}, PathType::InOrder)), (Ids{ { 5, 5 } }));
+  EXPECT_EQ(EndsOf(Solve({ 5, 5, 9 }, {}, PathType::InOrder)), (Ids{ { 5, 9 } }));
+}
+
 TEST(PathSolver, ConnectsAllPairs)
 {
   const PathSolver::Result result = Solve({ 3, 50 }, { 21, 7 }, PathType::AllPairs);

@@ -134,6 +134,81 @@ TEST_F(Signatures, LowAndHighPassAddUpAndAModePasses)
     high.col(1).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-8); // shares are exact to rounding
 }
 
+/// Also beside a large constant, which stays.
+TEST_F(Signatures, SurrogatesHaveTheEnergyOfTheValues)
+{
+  LocalSurface surface(stages, mesh, asked);
+  const PointModes modes = *solver.Update(surface, input, options, {}).modes;
+  MultiVector values(modes.values.rows(), 2);
+  values.col(0) = 2.0 * modes.values.col(2) + modes.values.col(6);
+  values.col(1) = modes.values.col(3).array() + 1e9;
+  input.values = this->PointField(values);
+  options.filterType = ModeFilter::Surrogates;
+  options.numberOfSurrogates = 3;
+  const MultiVector surrogates = solver.Update(surface, input, options, {}).surrogates;
+  ASSERT_EQ(surrogates.cols(), 6);
+  EXPECT_EQ(solver.Update(surface, input, options, {}).filtered.cols(), 0);
+  const double tolerance[2] = { 1e-8, 1e-5 };
+  for (Id k = 0; k < surrogates.cols(); ++k)
+  {
+    MultiVector deviation = surrogates.col(k);
+    deviation.array() -= k % 2 == 1 ? 1e9 : 0.0;
+    const MultiVector shares = ExpandInModes(*mesh, modes, deviation).shares;
+    const double energies[2] = { k % 2 == 1 ? 1.0 : 4.0, k % 2 == 1 ? 0.0 : 1.0 };
+    EXPECT_NEAR(shares(0, 0), 0.0, tolerance[k % 2]);
+    EXPECT_NEAR(shares.middleRows(1, 3).squaredNorm(), energies[0], tolerance[k % 2]);
+    EXPECT_NEAR(shares.middleRows(4, 5).squaredNorm(), energies[1], tolerance[k % 2]);
+    EXPECT_NEAR(shares.bottomRows(shares.rows() - 9).norm(), 0.0, tolerance[k % 2]);
+  }
+  const auto runs = stages.Runs(SolveStage);
+  options.seed = 2;
+  EXPECT_NE(solver.Update(surface, input, options, {}).surrogates, surrogates);
+  EXPECT_EQ(stages.Runs(SolveStage), runs);
+  input.values = {};
+  EXPECT_THROW(solver.Update(surface, input, options, {}), InvalidInput);
+}
+
+/// Modes that are 0 on the boundary, of the unit square. None of them is a constant.
+TEST_F(Signatures, ErrorsAreRelativeToTheValuesIfNoModeIsConstant)
+{
+  const auto square = std::make_shared<const TriangleMesh>(FlatRectangle(40, 40));
+  auto modes = std::make_shared<PointModes>();
+  modes->area = 1.0;
+  modes->values.resize(static_cast<Id>(square->points.size()), 3);
+  constexpr int Waves[3][2] = { { 1, 1 }, { 1, 2 }, { 2, 1 } };
+  for (int mode = 0; mode < 3; ++mode)
+  {
+    const auto [p, q] = Waves[mode];
+    modes->eigenvalues.push_back(M_PI * M_PI * (p * p + q * q));
+    for (Id point = 0; point < modes->values.rows(); ++point)
+    {
+      const Vec3& at = square->points[point];
+      modes->values(point, mode) = 2.0 * std::sin(p * M_PI * at.x()) * std::sin(q * M_PI * at.y());
+    }
+  }
+  input.modes = { square, modes, {} };
+  MultiVector values(modes->values.rows(), 2);
+  values.col(0) = 3.0 * modes->values.col(0) + 4.0 * modes->values.col(1);
+  values.col(1).setConstant(1e7); // its share in the first mode is 8e7 / π²
+  input.values = this->PointField(values);
+  options.filterType = ModeFilter::LowPass;
+  options.lastMode = 0;
+  LocalSurface surface(stages, square, asked);
+  const SignatureSolver::Result result = solver.Update(surface, input, options, {});
+  EXPECT_NEAR(result.remaining(0, 0), 0.8, 1e-3);
+  EXPECT_NEAR(result.remaining(1, 0), 0.0, 1e-6);
+  const double share = 8.0 / (M_PI * M_PI);
+  EXPECT_NEAR(result.remaining(0, 1), std::sqrt(1.0 - share * share), 1e-3);
+  EXPECT_LT((result.filtered.col(0) - 3.0 * modes->values.col(0))
+              .cwiseAbs()
+              .maxCoeff<Eigen::PropagateNaN>(),
+    0.01);
+  EXPECT_LT((result.filtered.col(1) - 1e7 * share * modes->values.col(0))
+              .cwiseAbs()
+              .maxCoeff<Eigen::PropagateNaN>(),
+    3e4);
+}
+
 TEST_F(Signatures, WrongInputIsRefused)
 {
   options.filterType = ModeFilter::LowPass;

@@ -1,6 +1,7 @@
 #include "Input/ModeReader.h"
 
 #include "Input/NearestPoints.h"
+#include "Output/SolverOutput.h"
 
 #include "Base/Errors.h"
 
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace gridfem
 {
@@ -61,9 +60,7 @@ bool IsModeName(const std::string& name)
 
 std::string ModeName(int mode)
 {
-  std::ostringstream name;
-  name << "Mode" << std::setfill('0') << std::setw(3) << mode;
-  return name.str();
+  return NumberedName("Mode", mode);
 }
 
 bool CarriesModes(vtkPolyData* input)

@@ -58,6 +58,17 @@ void WriteModeDistances(const SignatureSolver::Result& result, int precision, vt
   output->GetPointData()->SetActiveScalars("BiharmonicDistance");
 }
 
+void WriteSurrogates(const SignatureSolver::Result& result, int dataType, vtkPolyData* output)
+{
+  const Id columns = result.coefficients.cols();
+  for (Id k = 0; k * columns < result.surrogates.cols(); ++k)
+  {
+    output->GetPointData()->AddArray(MakePointArray(NumberedName("Surrogate", k).c_str(),
+      result.surrogates.middleCols(k * columns, columns), dataType));
+  }
+  output->GetPointData()->SetActiveScalars("Surrogate000");
+}
+
 void WriteModeTable(const SignatureSolver::Result& result, vtkTable* table)
 {
   const PointModes& modes = *result.modes;

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -182,6 +183,13 @@ void WriteText(const std::string& text, vtkTable* table)
   column->SetName("Text");
   column->InsertNextValue(text);
   table->AddColumn(column);
+}
+
+std::string NumberedName(const char* stem, Id number)
+{
+  std::ostringstream name;
+  name << stem << std::setw(3) << std::setfill('0') << number;
+  return name.str();
 }
 
 std::string ShortNumber(double number)

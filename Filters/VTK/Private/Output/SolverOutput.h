@@ -77,6 +77,9 @@ void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkT
 /// Writes a text as a table that ParaView shows in the 3D view.
 void WriteText(const std::string& text, vtkTable* table);
 
+/// Returns a name such as Mode007, with three digits or more.
+std::string NumberedName(const char* stem, Id number);
+
 /// Returns a number with four digits, for a text.
 std::string ShortNumber(double number);
 
