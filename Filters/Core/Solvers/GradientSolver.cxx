@@ -1,7 +1,7 @@
 #include "Solvers/GradientSolver.h"
 
 #include "Base/Errors.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <utility>
@@ -137,10 +137,8 @@ void GradientSolver::Decompose(const Surface& surface, const Input& input, const
 GradientSolver::Result GradientSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  GradientSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(
+    &GradientSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

@@ -1,7 +1,7 @@
 #include "Solvers/InterpolationSolver.h"
 
 #include "Equations/LocalCorrection.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 #include "Solvers/SurfaceFields.h"
 
@@ -223,11 +223,8 @@ const InterpolationSolver::Result& InterpolationSolver::Update(
 InterpolationSolver::Result InterpolationSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  InterpolationSolver solver;
-  solver.Update(surface, input, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(
+    &InterpolationSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

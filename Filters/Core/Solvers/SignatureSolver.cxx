@@ -3,7 +3,7 @@
 #include "Base/Errors.h"
 #include "Base/UnsolvedRows.h"
 #include "Grid/Grid.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SurfaceFields.h"
 
 #include <cmath>
@@ -286,10 +286,8 @@ void SignatureSolver::Filter(const Options& options, int threads)
 SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  SignatureSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(
+    &SignatureSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem
