@@ -49,13 +49,6 @@ PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
     space.get(), smoothing, report, job);
 }
 
-SurfaceOptions CurvatureSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const CurvatureSolver::Result& CurvatureSolver::Update(
   Surface& surface, const Options& options, const Job& job)
 {

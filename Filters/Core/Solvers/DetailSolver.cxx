@@ -98,13 +98,6 @@ EquationOptions WithThreads(EquationOptions equation, int threads)
 
 } // namespace
 
-SurfaceOptions DetailSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const DetailSolver::Result& DetailSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {

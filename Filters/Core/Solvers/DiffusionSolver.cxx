@@ -139,13 +139,6 @@ double TimeOfSigma(double sigma)
   return 0.5 * sigma * sigma;
 }
 
-SurfaceOptions DiffusionSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const DiffusionSolver::Result& DiffusionSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {

@@ -227,13 +227,6 @@ double NoiseOf(const GaussianFieldSolver::Options& options)
 
 } // namespace
 
-SurfaceOptions GaussianFieldSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {

@@ -23,13 +23,6 @@ std::string WarningOfOneSided(const HodgeDecomposition& parts)
 
 } // namespace
 
-SurfaceOptions GradientSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const GradientSolver::Result& GradientSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {

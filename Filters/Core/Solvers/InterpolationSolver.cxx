@@ -112,13 +112,6 @@ void MeasureMisfit(const PointValues& given, const std::vector<char>& hasFunctio
 
 } // namespace
 
-SurfaceOptions InterpolationSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 /// Takes the values without their large constants.
 void InterpolationSolver::TakeValues(const Surface& surface, PointValues given)
 {

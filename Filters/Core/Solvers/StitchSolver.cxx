@@ -77,8 +77,7 @@ std::unique_ptr<FiniteElementSpace> SpaceOfDetails(
 
 SurfaceOptions StitchSolver::SurfaceDefaults()
 {
-  SurfaceOptions surface;
-  surface.choice.normalStabilization = 1e-2;
+  SurfaceOptions surface = StabilizedSurface();
   surface.functionsPerPoint = FunctionsPerPoint({});
   return surface;
 }
