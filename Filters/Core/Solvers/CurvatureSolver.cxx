@@ -2,7 +2,7 @@
 
 #include "Base/UnsolvedRows.h"
 #include "Base/VectorRows.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -60,13 +60,6 @@ PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
   }
   return CurvaturesOfSurface(surface.Mesh(), surface.UsedOptions().space.weldCoincidentPoints,
     space.get(), smoothing, report, job);
-}
-
-SurfaceOptions CurvatureSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
 }
 
 const CurvatureSolver::Result& CurvatureSolver::Update(
@@ -127,10 +120,7 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
 CurvatureSolver::Result CurvatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  CurvatureSolver solver;
-  return solver.Update(surface, options, job);
+  return SolveOnMesh(&CurvatureSolver::result_, std::move(mesh), surfaceOptions, job, options);
 }
 
 } // namespace gridfem

@@ -54,7 +54,7 @@ public:
   };
 
   /// The default options of the surface.
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   /// Fits again if the mesh or a relevant option has changed. Without smoothing, the surface makes
   /// no functions. Throws InvalidInput and Aborted.

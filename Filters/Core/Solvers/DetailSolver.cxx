@@ -5,7 +5,7 @@
 #include "Distance/MarchedDistance.h"
 #include "Shape/MovedSurface.h"
 #include "Solvers/CurvatureSolver.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <cmath>
@@ -97,13 +97,6 @@ EquationOptions WithThreads(EquationOptions equation, int threads)
 }
 
 } // namespace
-
-SurfaceOptions DetailSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
 
 const DetailSolver::Result& DetailSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
@@ -358,10 +351,7 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
 DetailSolver::Result DetailSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  DetailSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(&DetailSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

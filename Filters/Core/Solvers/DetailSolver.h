@@ -71,7 +71,7 @@ public:
   };
 
   /// The default options of the surface.
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   /// Computes the change. Other scales repeat no stage. Throws InvalidInput and Aborted.
   const Result& Update(

@@ -1,7 +1,7 @@
 #include "Solvers/DiffusionSolver.h"
 
 #include "Base/Errors.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -137,13 +137,6 @@ double TimeOfFullWidth(double fullWidth)
 double TimeOfSigma(double sigma)
 {
   return 0.5 * sigma * sigma;
-}
-
-SurfaceOptions DiffusionSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
 }
 
 const DiffusionSolver::Result& DiffusionSolver::Update(
@@ -326,10 +319,8 @@ std::vector<std::string> DiffusionSolver::Warnings(int step) const
 DiffusionSolver::Result DiffusionSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  DiffusionSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(
+    &DiffusionSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

@@ -84,7 +84,7 @@ public:
   };
 
   /// The default options of the surface.
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   /// Makes the steps that are missing. After an abort the steps so far are kept. Collective. Throws
   /// InvalidInput and Aborted.

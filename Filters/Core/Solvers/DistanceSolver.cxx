@@ -4,7 +4,7 @@
 #include "Base/Errors.h"
 #include "Distance/NearestSource.h"
 #include "Solvers/DistanceHierarchy.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -300,11 +300,8 @@ const DistanceSolver::Result& DistanceSolver::Update(
 DistanceSolver::Result DistanceSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  DistanceSolver solver;
-  solver.Update(surface, input, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(
+    &DistanceSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

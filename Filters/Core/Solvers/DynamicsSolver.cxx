@@ -118,9 +118,8 @@ double LargestRatio(const Columns& errors, const Columns& values)
 
 SurfaceOptions DynamicsSolver::SurfaceDefaults()
 {
-  SurfaceOptions options;
+  SurfaceOptions options = StabilizedSurface();
   options.space.depth = 6;
-  options.choice.normalStabilization = 1e-2;
   return options;
 }
 

@@ -3,7 +3,7 @@
 #include "Distance/NearestSource.h"
 #include "Solvers/DistanceHierarchy.h"
 #include "Solvers/DistanceSolver.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <cmath>
@@ -173,11 +173,7 @@ const FarthestPointsSolver::Result& FarthestPointsSolver::Update(
 FarthestPointsSolver::Result FarthestPointsSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  FarthestPointsSolver solver;
-  solver.Update(surface, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(&FarthestPointsSolver::result_, std::move(mesh), surfaceOptions, job, options);
 }
 
 } // namespace gridfem

@@ -67,6 +67,8 @@ public:
     std::vector<std::string> warnings; // about the steps that this update has made
   };
 
+  static SurfaceOptions SurfaceDefaults() { return {}; }
+
   /// @param cacheBytes  memory for the shapes of kept steps; the last shape is always kept
   explicit FlowSolver(double cacheBytes = 1e9) : cacheBytes_(cacheBytes) {}
 
@@ -84,7 +86,8 @@ public:
   /// Runs all steps on a mesh of this process.
   /// @param points  receives the points after the last step
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Options& options,
-    std::vector<Vec3>& points, const SurfaceOptions& surfaceOptions = {}, const Job& job = {});
+    std::vector<Vec3>& points, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
 
 private:
   static EquationOptions OfStep();

@@ -3,7 +3,7 @@
 #include "Base/Errors.h"
 #include "Distance/NearestSource.h"
 #include "Grid/PlaceNumbers.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -227,13 +227,6 @@ double NoiseOf(const GaussianFieldSolver::Options& options)
 
 } // namespace
 
-SurfaceOptions GaussianFieldSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 const GaussianFieldSolver::Result& GaussianFieldSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {
@@ -442,11 +435,8 @@ std::vector<std::string> GaussianFieldSolver::Warnings(const Options& options) c
 GaussianFieldSolver::Result GaussianFieldSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  GaussianFieldSolver solver;
-  solver.Update(surface, input, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(
+    &GaussianFieldSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

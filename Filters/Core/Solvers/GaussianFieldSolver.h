@@ -88,7 +88,7 @@ public:
     std::vector<std::string> warnings;
   };
 
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   /// Samples the field. Another seed or other values repeat only the solves. Throws InvalidInput
   /// and Aborted.

@@ -1,7 +1,7 @@
 #include "Solvers/GradientSolver.h"
 
 #include "Base/Errors.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <utility>
@@ -22,13 +22,6 @@ std::string WarningOfOneSided(const HodgeDecomposition& parts)
 }
 
 } // namespace
-
-SurfaceOptions GradientSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
 
 const GradientSolver::Result& GradientSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
@@ -137,10 +130,8 @@ void GradientSolver::Decompose(const Surface& surface, const Input& input, const
 GradientSolver::Result GradientSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  GradientSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(
+    &GradientSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

@@ -55,7 +55,7 @@ public:
   };
 
   /// The default options of the surface.
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   /// Computes what has changed. Collective. Throws InvalidInput and Aborted.
   const Result& Update(

@@ -1,7 +1,7 @@
 #include "Solvers/InterpolationSolver.h"
 
 #include "Equations/LocalCorrection.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 #include "Solvers/SurfaceFields.h"
 
@@ -112,13 +112,6 @@ void MeasureMisfit(const PointValues& given, const std::vector<char>& hasFunctio
 
 } // namespace
 
-SurfaceOptions InterpolationSolver::SurfaceDefaults()
-{
-  SurfaceOptions options;
-  options.choice.normalStabilization = 1e-2;
-  return options;
-}
-
 /// Takes the values without their large constants.
 void InterpolationSolver::TakeValues(const Surface& surface, PointValues given)
 {
@@ -223,11 +216,8 @@ const InterpolationSolver::Result& InterpolationSolver::Update(
 InterpolationSolver::Result InterpolationSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  InterpolationSolver solver;
-  solver.Update(surface, input, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(
+    &InterpolationSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

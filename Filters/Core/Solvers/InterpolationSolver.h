@@ -43,7 +43,7 @@ public:
     std::vector<std::string> warnings;
   };
 
-  static SurfaceOptions SurfaceDefaults();
+  static SurfaceOptions SurfaceDefaults() { return StabilizedSurface(); }
 
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job = {});

@@ -3,7 +3,7 @@
 #include "Shape/ChartLayout.h"
 #include "Shape/DiskMap.h"
 #include "Shape/IsometricMap.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -314,11 +314,8 @@ ParameterizationSolver::Result ParameterizationSolver::Solve(
   std::shared_ptr<const TriangleMesh> mesh, const Options& options,
   const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  ParameterizationSolver solver;
-  solver.Update(surface, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(
+    &ParameterizationSolver::result_, std::move(mesh), surfaceOptions, job, options);
 }
 
 } // namespace gridfem

@@ -2,7 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Distance/NearestSource.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 
 #include <algorithm>
 #include <map>
@@ -250,11 +250,7 @@ const PathSolver::Result& PathSolver::Update(
 PathSolver::Result PathSolver::Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
   const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  PathSolver solver;
-  solver.Update(surface, input, options, job);
-  return std::move(solver.result_);
+  return SolveOnMesh(&PathSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

@@ -1,7 +1,7 @@
 #include "Solvers/PoissonSolver.h"
 
 #include "Base/Errors.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -332,10 +332,7 @@ void PoissonSolver::Report(
 PoissonSolver::Result PoissonSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  PoissonSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(&PoissonSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

@@ -64,13 +64,16 @@ public:
     std::vector<std::string> warnings;
   };
 
+  static SurfaceOptions SurfaceDefaults() { return {}; }
+
   /// Throws InvalidInput and Aborted. Collective.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
   /// Solves once on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
-    const Options& options, const SurfaceOptions& surfaceOptions = {}, const Job& job = {});
+    const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
 
 private:
   void SolveAtWantedError(

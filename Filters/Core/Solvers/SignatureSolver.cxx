@@ -4,7 +4,7 @@
 #include "Base/UnsolvedRows.h"
 #include "Grid/Grid.h"
 #include "Grid/TriangleArea.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SurfaceFields.h"
 #include "Spectrum/SpectralSurrogates.h"
 
@@ -339,10 +339,8 @@ MultiVector SignatureSolver::Surrogates(const Surface& surface, const Options& o
 SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  SignatureSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(
+    &SignatureSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

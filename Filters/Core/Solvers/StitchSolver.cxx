@@ -1,7 +1,7 @@
 #include "Solvers/StitchSolver.h"
 
 #include "Base/Errors.h"
-#include "Solvers/LocalSurface.h"
+#include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
 #include <algorithm>
@@ -77,8 +77,7 @@ std::unique_ptr<FiniteElementSpace> SpaceOfDetails(
 
 SurfaceOptions StitchSolver::SurfaceDefaults()
 {
-  SurfaceOptions surface;
-  surface.choice.normalStabilization = 1e-2;
+  SurfaceOptions surface = StabilizedSurface();
   surface.functionsPerPoint = FunctionsPerPoint({});
   return surface;
 }
@@ -167,10 +166,7 @@ std::optional<Index> StitchSolver::Reference(int label) const
 StitchSolver::Result StitchSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {
-  Stages stages;
-  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
-  StitchSolver solver;
-  return solver.Update(surface, input, options, job);
+  return SolveOnMesh(&StitchSolver::result_, std::move(mesh), surfaceOptions, job, input, options);
 }
 
 } // namespace gridfem

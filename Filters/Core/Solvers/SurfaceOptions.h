@@ -25,6 +25,15 @@ struct SurfaceOptions
   ParameterUnits parameterUnits = ParameterUnits::UnitArea;
 };
 
+/// The defaults of most solvers. They need few iterations to small tolerances on any surface
+/// (OperatorOptions).
+inline SurfaceOptions StabilizedSurface()
+{
+  SurfaceOptions options;
+  options.choice.normalStabilization = 1e-2;
+  return options;
+}
+
 } // namespace gridfem
 
 #endif

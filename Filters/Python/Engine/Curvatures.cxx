@@ -24,10 +24,6 @@ Results CurvaturesResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeCurvatures(Properties& properties)
-{
-  return MakeSolverProblem<CurvatureSolver>(
-    properties, CurvatureSolver::SurfaceDefaults(), &CurvaturesResults);
-}
+const MakeProblem MakeCurvatures = &MakeSolverProblem<CurvatureSolver, &CurvaturesResults>;
 
 } // namespace gridfem

@@ -31,10 +31,6 @@ Results DetailResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeDetail(Properties& properties)
-{
-  return MakeSolverProblem<DetailSolver>(
-    properties, DetailSolver::SurfaceDefaults(), &DetailResults);
-}
+const MakeProblem MakeDetail = &MakeSolverProblem<DetailSolver, &DetailResults>;
 
 } // namespace gridfem

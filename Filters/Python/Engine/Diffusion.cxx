@@ -26,10 +26,6 @@ Results DiffusionResults(const Given& given, const SurfaceOptions& discretized,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeDiffusion(Properties& properties)
-{
-  return MakeSolverProblem<DiffusionSolver>(
-    properties, DiffusionSolver::SurfaceDefaults(), &DiffusionResults);
-}
+const MakeProblem MakeDiffusion = &MakeSolverProblem<DiffusionSolver, &DiffusionResults>;
 
 } // namespace gridfem

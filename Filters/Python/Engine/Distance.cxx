@@ -27,10 +27,9 @@ Results DistanceResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeDistance(Properties& properties)
-{
-  return MakeSolverProblem<DistanceSolver>(properties, DistanceSolver::SurfaceDefaults(),
-    &DistanceResults, DistanceOptions::LeastStabilization);
-}
+template<>
+inline constexpr double LeastStabilization<DistanceSolver> = DistanceOptions::LeastStabilization;
+
+const MakeProblem MakeDistance = &MakeSolverProblem<DistanceSolver, &DistanceResults>;
 
 } // namespace gridfem

@@ -23,10 +23,6 @@ Results DynamicsResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeDynamics(Properties& properties)
-{
-  return MakeSolverProblem<DynamicsSolver>(
-    properties, DynamicsSolver::SurfaceDefaults(), &DynamicsResults);
-}
+const MakeProblem MakeDynamics = &MakeSolverProblem<DynamicsSolver, &DynamicsResults>;
 
 } // namespace gridfem

@@ -22,11 +22,11 @@ Results FarthestPointsResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties)
-{
-  return MakeSolverProblem<FarthestPointsSolver>(properties,
-    FarthestPointsSolver::SurfaceDefaults(), &FarthestPointsResults,
-    DistanceOptions::LeastStabilization);
-}
+template<>
+inline constexpr double LeastStabilization<FarthestPointsSolver> =
+  DistanceOptions::LeastStabilization;
+
+const MakeProblem MakeFarthestPoints =
+  &MakeSolverProblem<FarthestPointsSolver, &FarthestPointsResults>;
 
 } // namespace gridfem

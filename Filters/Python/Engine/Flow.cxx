@@ -20,9 +20,6 @@ Results FlowResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeFlow(Properties& properties)
-{
-  return MakeSolverProblem<FlowSolver>(properties, SurfaceOptions(), &FlowResults);
-}
+const MakeProblem MakeFlow = &MakeSolverProblem<FlowSolver, &FlowResults>;
 
 } // namespace gridfem

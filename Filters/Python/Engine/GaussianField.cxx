@@ -41,10 +41,7 @@ Results GaussianFieldResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeGaussianField(Properties& properties)
-{
-  return MakeSolverProblem<GaussianFieldSolver>(
-    properties, GaussianFieldSolver::SurfaceDefaults(), &GaussianFieldResults);
-}
+const MakeProblem MakeGaussianField =
+  &MakeSolverProblem<GaussianFieldSolver, &GaussianFieldResults>;
 
 } // namespace gridfem

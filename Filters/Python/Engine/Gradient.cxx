@@ -26,10 +26,6 @@ Results GradientResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeGradient(Properties& properties)
-{
-  return MakeSolverProblem<GradientSolver>(
-    properties, GradientSolver::SurfaceDefaults(), &GradientResults);
-}
+const MakeProblem MakeGradient = &MakeSolverProblem<GradientSolver, &GradientResults>;
 
 } // namespace gridfem

@@ -22,10 +22,7 @@ Results InterpolationResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeInterpolation(Properties& properties)
-{
-  return MakeSolverProblem<InterpolationSolver>(
-    properties, InterpolationSolver::SurfaceDefaults(), &InterpolationResults);
-}
+const MakeProblem MakeInterpolation =
+  &MakeSolverProblem<InterpolationSolver, &InterpolationResults>;
 
 } // namespace gridfem

@@ -29,22 +29,22 @@ using Arrays = std::map<std::string, std::pair<MultiVector, bool>>;
 using Numbers = std::map<std::string, double>;
 
 const std::map<std::string, MakeProblem> Problems = {
-  { "FarthestPoints", &MakeFarthestPoints },
-  { "GaussianField", &MakeGaussianField },
-  { "GeodesicDistance", &MakeDistance },
-  { "GeodesicPaths", &MakePath },
-  { "HarmonicInterpolation", &MakeInterpolation },
-  { "HeatDiffusion", &MakeDiffusion },
-  { "LaplaceSpectrum", &MakeSpectrum },
-  { "MeanCurvatureFlow", &MakeFlow },
-  { "Parameterization", &MakeParameterization },
-  { "PrincipalCurvatures", &MakeCurvatures },
-  { "ScreenedPoisson", &MakePoisson },
-  { "SpectralSignatures", &MakeSignatures },
-  { "StitchColors", &MakeStitching },
-  { "SurfaceDetail", &MakeDetail },
-  { "SurfaceDynamics", &MakeDynamics },
-  { "SurfaceGradient", &MakeGradient },
+  { "FarthestPoints", MakeFarthestPoints },
+  { "GaussianField", MakeGaussianField },
+  { "GeodesicDistance", MakeDistance },
+  { "GeodesicPaths", MakePath },
+  { "HarmonicInterpolation", MakeInterpolation },
+  { "HeatDiffusion", MakeDiffusion },
+  { "LaplaceSpectrum", MakeSpectrum },
+  { "MeanCurvatureFlow", MakeFlow },
+  { "Parameterization", MakeParameterization },
+  { "PrincipalCurvatures", MakeCurvatures },
+  { "ScreenedPoisson", MakePoisson },
+  { "SpectralSignatures", MakeSignatures },
+  { "StitchColors", MakeStitching },
+  { "SurfaceDetail", MakeDetail },
+  { "SurfaceDynamics", MakeDynamics },
+  { "SurfaceGradient", MakeGradient },
 };
 
 /// Looks for Ctrl-C every tenth of a second.
@@ -116,7 +116,7 @@ Results SolveAlone(const Problem& problem, const Given& given)
   KeepWaitsShort();
   const MemoryReuse reuse;
   Signals signals;
-  return problem.Solve(given, Progress([&](double) { return signals.GoOn(); }));
+  return problem(given, Progress([&](double) { return signals.GoOn(); }));
 }
 
 py::tuple Solve(const std::string& name, const Points& points, const Cells& cells,
@@ -124,7 +124,7 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   const std::vector<double>& observed, const py::object& reactions, int species)
 {
   Properties properties(name, numbers);
-  const std::unique_ptr<Problem> problem = Problems.at(name)(properties);
+  const Problem problem = Problems.at(name)(properties);
   const bool welds =
     properties.Switch("WeldCoincidentPoints", SurfaceOptions().space.weldCoincidentPoints);
   properties.RequireNoOther();
@@ -143,7 +143,7 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   given.reactions = ReactionsOf(reactions, species);
   try
   {
-    const Results results = SolveAlone(*problem, given);
+    const Results results = SolveAlone(problem, given);
     return py::make_tuple(results.arrays, results.warnings);
   }
   catch (const Aborted&)

@@ -33,10 +33,7 @@ Results ParameterizationResults(const Given& given, const SurfaceOptions& surfac
 
 } // namespace
 
-std::unique_ptr<Problem> MakeParameterization(Properties& properties)
-{
-  return MakeSolverProblem<ParameterizationSolver>(
-    properties, ParameterizationSolver::SurfaceDefaults(), &ParameterizationResults);
-}
+const MakeProblem MakeParameterization =
+  &MakeSolverProblem<ParameterizationSolver, &ParameterizationResults>;
 
 } // namespace gridfem

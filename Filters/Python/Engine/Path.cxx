@@ -50,9 +50,6 @@ Results PathResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakePath(Properties& properties)
-{
-  return MakeSolverProblem<PathSolver>(properties, PathSolver::SurfaceDefaults(), &PathResults);
-}
+const MakeProblem MakePath = &MakeSolverProblem<PathSolver, &PathResults>;
 
 } // namespace gridfem

@@ -27,9 +27,6 @@ Results PoissonResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakePoisson(Properties& properties)
-{
-  return MakeSolverProblem<PoissonSolver>(properties, SurfaceOptions(), &PoissonResults);
-}
+const MakeProblem MakePoisson = &MakeSolverProblem<PoissonSolver, &PoissonResults>;
 
 } // namespace gridfem

@@ -7,6 +7,8 @@
 
 #include "Base/Progress.h"
 
+#include <functional>
+
 namespace gridfem
 {
 
@@ -41,34 +43,28 @@ inline MultiVector ColumnOf(const std::vector<Id>& ids)
     .cast<double>();
 }
 
-class Problem
-{
-public:
-  virtual ~Problem() = default;
-
-  /// Solves the problem. Throws InvalidInput for unusable input, and Aborted.
-  virtual Results Solve(const Given& given, const Progress& progress) const = 0;
-};
+/// Solves a problem. Throws InvalidInput for unusable input, and Aborted.
+using Problem = std::function<Results(const Given& given, const Progress& progress)>;
 
 /// Takes the properties that the problem has. Throws InvalidInput for one that is out of range.
-using MakeProblem = std::unique_ptr<Problem> (*)(Properties& properties);
+using MakeProblem = Problem (*)(Properties& properties);
 
-std::unique_ptr<Problem> MakeCurvatures(Properties& properties);
-std::unique_ptr<Problem> MakeDetail(Properties& properties);
-std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
-std::unique_ptr<Problem> MakeDistance(Properties& properties);
-std::unique_ptr<Problem> MakeDynamics(Properties& properties);
-std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
-std::unique_ptr<Problem> MakeFlow(Properties& properties);
-std::unique_ptr<Problem> MakeGaussianField(Properties& properties);
-std::unique_ptr<Problem> MakeGradient(Properties& properties);
-std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
-std::unique_ptr<Problem> MakeParameterization(Properties& properties);
-std::unique_ptr<Problem> MakePath(Properties& properties);
-std::unique_ptr<Problem> MakePoisson(Properties& properties);
-std::unique_ptr<Problem> MakeSignatures(Properties& properties);
-std::unique_ptr<Problem> MakeSpectrum(Properties& properties);
-std::unique_ptr<Problem> MakeStitching(Properties& properties);
+extern const MakeProblem MakeCurvatures;
+extern const MakeProblem MakeDetail;
+extern const MakeProblem MakeDiffusion;
+extern const MakeProblem MakeDistance;
+extern const MakeProblem MakeDynamics;
+extern const MakeProblem MakeFarthestPoints;
+extern const MakeProblem MakeFlow;
+extern const MakeProblem MakeGaussianField;
+extern const MakeProblem MakeGradient;
+extern const MakeProblem MakeInterpolation;
+extern const MakeProblem MakeParameterization;
+extern const MakeProblem MakePath;
+extern const MakeProblem MakePoisson;
+extern const MakeProblem MakeSignatures;
+extern const MakeProblem MakeSpectrum;
+extern const MakeProblem MakeStitching;
 
 } // namespace gridfem
 

@@ -35,10 +35,6 @@ Results SignaturesResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeSignatures(Properties& properties)
-{
-  return MakeSolverProblem<SignatureSolver>(
-    properties, SignatureSolver::SurfaceDefaults(), &SignaturesResults);
-}
+const MakeProblem MakeSignatures = &MakeSolverProblem<SignatureSolver, &SignaturesResults>;
 
 } // namespace gridfem

@@ -10,39 +10,24 @@ namespace gridfem
 
 /// Turns given arrays into the arrays of a solver's result.
 template<class Solver>
-using SolveGiven = Results (*)(const Given& given, const SurfaceOptions& surface,
+using SolveGiven = Results(const Given& given, const SurfaceOptions& surface,
   const typename Solver::Options& options, const Job& job);
 
+/// The least NormalStabilization.
 template<class Solver>
-class SolverProblem : public Problem
-{
-public:
-  SolverProblem(Properties& properties, const SurfaceOptions& defaults,
-    SolveGiven<Solver> solveGiven, double leastStabilization)
-    : surface_(defaults), solveGiven_(solveGiven)
-  {
-    TakeSurfaceOptions(properties, surface_, leastStabilization);
-    TakeOptions(properties, options_);
-  }
-
-  Results Solve(const Given& given, const Progress& progress) const override
-  {
-    return solveGiven_(given, surface_, options_, { 0, progress });
-  }
-
-private:
-  SurfaceOptions surface_;
-  typename Solver::Options options_;
-  SolveGiven<Solver> solveGiven_;
-};
+inline constexpr double LeastStabilization = 1e-14;
 
 /// Makes the problem. Its options are the given properties, or else the defaults.
-template<class Solver>
-std::unique_ptr<Problem> MakeSolverProblem(Properties& properties, const SurfaceOptions& defaults,
-  SolveGiven<Solver> solveGiven, double leastStabilization = LeastStabilization)
+template<class Solver, SolveGiven<Solver>* Solve>
+Problem MakeSolverProblem(Properties& properties)
 {
-  return std::make_unique<SolverProblem<Solver>>(
-    properties, defaults, solveGiven, leastStabilization);
+  SurfaceOptions surface = Solver::SurfaceDefaults();
+  TakeSurfaceOptions(properties, surface, LeastStabilization<Solver>);
+  typename Solver::Options options;
+  TakeOptions(properties, options);
+  return [surface, options](const Given& given, const Progress& progress) {
+    return Solve(given, surface, options, { 0, progress });
+  };
 }
 
 } // namespace gridfem

@@ -46,9 +46,6 @@ void TakeOptions(Properties& properties, Options& options)
   Options::ForEach(options, TakeProperty{ properties });
 }
 
-/// The least NormalStabilization of most solvers.
-inline constexpr double LeastStabilization = 1e-14;
-
 /// The properties of the surface that all solvers share.
 void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options, double leastStabilization);
 

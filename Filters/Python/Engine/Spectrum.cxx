@@ -21,10 +21,6 @@ Results SpectrumResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeSpectrum(Properties& properties)
-{
-  return MakeSolverProblem<SpectrumSolver>(
-    properties, SpectrumSolver::SurfaceDefaults(), &SpectrumResults);
-}
+const MakeProblem MakeSpectrum = &MakeSolverProblem<SpectrumSolver, &SpectrumResults>;
 
 } // namespace gridfem

@@ -32,10 +32,6 @@ Results StitchingResults(const Given& given, const SurfaceOptions& surface,
 
 } // namespace
 
-std::unique_ptr<Problem> MakeStitching(Properties& properties)
-{
-  return MakeSolverProblem<StitchSolver>(
-    properties, StitchSolver::SurfaceDefaults(), &StitchingResults);
-}
+const MakeProblem MakeStitching = &MakeSolverProblem<StitchSolver, &StitchingResults>;
 
 } // namespace gridfem
