@@ -1,6 +1,7 @@
 #include "Shape/OpenedSurface.h"
 
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceSides.h"
 #include "Grid/TriangleArea.h"
@@ -95,8 +96,7 @@ public:
       const auto& places = sheets.triangles.places[member];
       placeOf_.insert(placeOf_.end(), places.begin(), places.end());
     }
-    std::sort(placeOf_.begin(), placeOf_.end());
-    placeOf_.erase(std::unique(placeOf_.begin(), placeOf_.end()), placeOf_.end());
+    SortEachOnce(placeOf_);
     for (const Index place : placeOf_)
     {
       points_.push_back(mesh.points[place]);
