@@ -159,7 +159,7 @@ private:
     {
       area += 0.5 * AreaVector(points_, { c[0], c[1], c[2] }).norm();
     }
-    return std::sqrt(4.0 * 3.14159265358979323846 * area);
+    return std::sqrt(4.0 * double(EIGEN_PI) * area);
   }
 
   /// Covers every small loop with triangles around its middle.
