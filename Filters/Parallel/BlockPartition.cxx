@@ -1,5 +1,7 @@
 #include "Parallel/BlockPartition.h"
 
+#include "Base/SortEachOnce.h"
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -142,8 +144,7 @@ void BlockPartition::Divide(std::vector<Block> blocks, bool isCoarsened, int ran
     const int owner = this->OwnerOf(block, depth_);
     this->ForNeighbors(block, [&](MortonKey key) { near_.emplace_back(key, owner); });
   }
-  std::sort(near_.begin(), near_.end());
-  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  SortEachOnce(near_);
 }
 
 int BlockPartition::OwnerOf(MortonKey cell, int depth) const
@@ -185,8 +186,7 @@ CellRegion BlockPartition::RegionOf(int rank) const
   {
     this->ForNeighbors(*block, [&](MortonKey key) { region.push_back(key); });
   }
-  std::sort(region.begin(), region.end());
-  region.erase(std::unique(region.begin(), region.end()), region.end());
+  SortEachOnce(region);
   return CellRegion(std::move(region), shift_, std::min(Margin, (1 << shift_) - 1));
 }
 
@@ -211,8 +211,7 @@ std::vector<int> BlockPartition::RanksNearCell(MortonKey cell) const
   }
   std::vector<int> ranks;
   ForBlocksOf(box, [&](const CellIndex& block) { this->AddRanksNear(MortonEncode(block), ranks); });
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  SortEachOnce(ranks);
   return ranks;
 }
 
@@ -247,8 +246,7 @@ void BlockPartition::FindRanksNear(
     ForBlocksNear(
       corner, box, side, Reach, [&](MortonKey block) { this->AddRanksNear(block, ranks); });
   }
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  SortEachOnce(ranks);
 }
 
 } // namespace gridfem

@@ -1,5 +1,7 @@
 #include "Parallel/LevelNumbering.h"
 
+#include "Base/SortEachOnce.h"
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -47,8 +49,7 @@ public:
       }
       this->AddGhost(patch, partition.OwnerOf(level.cell[patch], level.depth));
     }
-    std::sort(others_.begin(), others_.end());
-    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    SortEachOnce(others_);
     for (const auto& [other, function] : others_)
     {
       ++count_[function];

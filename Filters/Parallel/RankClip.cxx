@@ -1,6 +1,7 @@
 #include "Parallel/RankClip.h"
 
 #include "Base/Parallel.h"
+#include "Base/SortEachOnce.h"
 #include "Parallel/LevelNumbering.h"
 #include "Parallel/OwnPieces.h"
 #include "Parallel/RankMemory.h"
@@ -127,8 +128,7 @@ GivenCells SendCells(
   received.grid = given.grid;
   received.ofTriangle.assign(keys.data(), keys.data() + keys.size());
   std::vector<MortonKey> cells = received.ofTriangle;
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  SortEachOnce(cells);
   std::copy_if(cells.begin(), cells.end(), std::back_inserter(received.cells),
     [&](MortonKey cell) { return region.Contains(MortonDecode(cell)); });
   return received;

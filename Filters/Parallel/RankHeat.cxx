@@ -1,5 +1,6 @@
 #include "Parallel/RankHeat.h"
 
+#include "Base/SortEachOnce.h"
 #include "Parallel/MatrixEntries.h"
 
 #include <algorithm>
@@ -29,12 +30,6 @@ Index PlaceOf(Id number, const std::vector<Id>& list)
 {
   const auto found = std::lower_bound(list.begin(), list.end(), number);
   return found != list.end() && *found == number ? static_cast<Index>(found - list.begin()) : -1;
-}
-
-void SortEachOnce(std::vector<Id>& numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "Parallel/RankLevel.h"
 
+#include "Base/SortEachOnce.h"
 #include "Multigrid/MatrixOrdering.h"
 #include "Multigrid/SmootherSequence.h"
 #include "Parallel/MatrixEntries.h"
@@ -27,12 +28,6 @@ Index RanksAt(const std::array<Index, FunctionsPerPatch>& patch, const LevelNumb
     most = std::max(most, numbering.touching[function]);
   }
   return most;
-}
-
-void SortEachOnce(std::vector<Index>& functions)
-{
-  std::sort(functions.begin(), functions.end());
-  functions.erase(std::unique(functions.begin(), functions.end()), functions.end());
 }
 
 /// Replaces functions by their places in an ascending list that contains all of them.
@@ -122,8 +117,7 @@ std::vector<int> ColorRanks(
           }
         }
       }
-      std::sort(coupled.begin(), coupled.end());
-      coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+      SortEachOnce(coupled);
     });
   coupled = ranks.Gather(coupled);
   std::vector<int> color(ranks.Size(), 0);

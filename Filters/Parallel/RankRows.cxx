@@ -1,5 +1,7 @@
 #include "Parallel/RankRows.h"
 
+#include "Base/SortEachOnce.h"
+
 #include <algorithm>
 #include <type_traits>
 
@@ -70,8 +72,7 @@ RankRows::RankRows(const Communicator& ranks, Index ghosts, std::vector<RankNeig
       }
     }
   }
-  std::sort(all_.begin(), all_.end());
-  all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+  SortEachOnce(all_);
   constexpr std::size_t Bytes = ColumnsPerMessage * sizeof(double);
   sent_.resize(rows * Bytes);
   received_.resize(rows * Bytes);

@@ -6,6 +6,7 @@
 #include "Support/Meshes.h"
 
 #include "Base/LargeMemory.h"
+#include "Base/SortEachOnce.h"
 #include "Base/VectorRows.h"
 #include "Spaces/HatSpace.h"
 
@@ -112,8 +113,7 @@ std::vector<char> PointsAtPartings(const GridFunctions& space)
       functions.emplace_back(MortonEncode(corner), level.dof[patch][k]);
     }
   }
-  std::sort(functions.begin(), functions.end());
-  functions.erase(std::unique(functions.begin(), functions.end()), functions.end());
+  SortEachOnce(functions);
   std::vector<char> isParted(level.numberOfFunctions, 0);
   for (std::size_t k = 1; k < functions.size(); ++k)
   {

@@ -3,6 +3,8 @@
 #ifndef GridFEM_NormalNumbers_h
 #define GridFEM_NormalNumbers_h
 
+#include "Base/Types.h"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +26,7 @@ public:
   std::array<double, 2> Pair(std::uint64_t pair) const
   {
     const double radius = std::sqrt(-2.0 * std::log(this->Uniform(2 * pair)));
-    const double angle = 2.0 * std::acos(-1.0) * this->Uniform(2 * pair + 1);
+    const double angle = 2.0 * double(EIGEN_PI) * this->Uniform(2 * pair + 1);
     return { radius * std::cos(angle), radius * std::sin(angle) };
   }
 

@@ -1,5 +1,7 @@
 #include "Distance/PathSearch.h"
 
+#include "Base/SortEachOnce.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -77,8 +79,7 @@ void PathSearch::From(
   queue_.clear();
   goal_ = targets.size() == 1 ? &graph_.At(targets.front()) : nullptr;
   std::vector<Index> wanted = targets;
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  SortEachOnce(wanted);
   std::size_t missing = targets.empty() ? nodes : wanted.size();
   for (const Index source : sources)
   {

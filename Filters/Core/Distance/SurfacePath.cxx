@@ -9,7 +9,6 @@ namespace gridfem
 namespace
 {
 
-constexpr double StraightAngle = 3.14159265358979323846;
 constexpr double AngleRounding = 1e-9;
 
 /// Lays strips of triangles along a way.
@@ -129,7 +128,7 @@ void AppendPart(const TriangleStrip& strip, Id first, Id last, TriangleStrip& to
 bool MoveAroundCorners(
   const PathGraph& graph, const std::vector<StripBend>& bends, TriangleStrip& strip)
 {
-  constexpr double Least = StraightAngle - AngleRounding;
+  constexpr double Least = double(EIGEN_PI) - AngleRounding;
   TriangleStrip moved{ strip.from, strip.to, {}, {} };
   Id done = 0; // the first triangle that is not yet in the moved strip
   for (const StripBend& bend : bends)

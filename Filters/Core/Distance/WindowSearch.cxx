@@ -9,7 +9,6 @@ namespace gridfem
 namespace
 {
 
-constexpr double FullAngle = 2.0 * 3.14159265358979323846;
 constexpr double WindowRounding = 1e-9; // of lengths, so that rounding closes no window
 
 double CrossOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
@@ -68,7 +67,7 @@ void WindowSearch::FindBendingPlaces()
   {
     double angle = 0.0;
     graph_.ForTrianglesAt(place, [&](Index triangle) { angle += graph_.AngleAt(triangle, place); });
-    bends_[place] = bends_[place] || angle > FullAngle + 1e-10;
+    bends_[place] = bends_[place] || angle > 2.0 * double(EIGEN_PI) + 1e-10;
   }
 }
 

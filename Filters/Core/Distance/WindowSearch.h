@@ -31,9 +31,6 @@ public:
   bool From(const std::vector<Index>& sources, const std::vector<Index>& targets, double bound,
     std::size_t most, const Job& job);
 
-  /// The number of windows of the last search.
-  std::size_t NumberOfWindows() const { return windows_.size(); }
-
   /// The length of the shortest path to a place. Infinite if no window has reached it.
   double LengthTo(Index place) const { return ways_[place].length; }
 

@@ -2,6 +2,7 @@
 
 #include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Grid/TriangleArea.h"
 
 #include <algorithm>
@@ -161,8 +162,7 @@ std::vector<TriangleEdge> EdgesBetween(
       }
     }
   }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  SortEachOnce(sides);
   std::vector<TriangleEdge> edges;
   for (const MarkedSide& side : sides)
   {

@@ -116,14 +116,13 @@ KrigingWeights::LeaveOneOut KrigingWeights::Validate(const Eigen::VectorXd& obse
 /// The determinant of the covariance of the differences is |C| 1ᵀ C⁻¹ 1.
 double KrigingWeights::LogLikelihood(const Eigen::VectorXd& observations) const
 {
-  const double pi = std::acos(-1.0);
   const Prediction prediction = this->Of(observations);
   const double squares =
     prediction.weights.col(0).dot((observations.array() - prediction.mean[0]).matrix());
   const double logOfDeterminant =
     2.0 * factor_.matrixLLT().diagonal().array().log().sum() + std::log(ones_.sum());
   const double differences = double(observations.size()) - 1.0;
-  return -0.5 * (squares + logOfDeterminant + differences * std::log(2.0 * pi));
+  return -0.5 * (squares + logOfDeterminant + differences * std::log(2.0 * double(EIGEN_PI)));
 }
 
 NormalErrors::NormalErrors(const TriangleMesh& mesh, const std::vector<Id>& points)

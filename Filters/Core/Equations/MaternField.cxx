@@ -59,8 +59,8 @@ FieldSamples MaternField::Solve(
 
 double MaternField::Scale() const
 {
-  const double pi = std::acos(-1.0);
-  return std::sqrt(4.0 * pi * options_.smoothness) * std::pow(options_.kappa, options_.smoothness);
+  return std::sqrt(4.0 * double(EIGEN_PI) * options_.smoothness) *
+         std::pow(options_.kappa, options_.smoothness);
 }
 
 FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const Job& job) const
@@ -77,7 +77,6 @@ FieldSamples MaternField::Sample(std::uint64_t seed, Id first, Id count, const J
 /// The areas are the sums of the functions' integrals, because the functions add up to 1.
 std::vector<double> MaternField::DeviationsOfMeans(const Job& job) const
 {
-  const double pi = std::acos(-1.0);
   const Components components = space_->ComponentsOf(0, job);
   MultiVector integrals;
   Multiply(mass_, MultiVector::Ones(mass_.rows, 1), integrals, job.threads);
@@ -89,7 +88,8 @@ std::vector<double> MaternField::DeviationsOfMeans(const Job& job) const
   std::vector<double> deviations;
   for (const double area : areas)
   {
-    deviations.push_back(std::sqrt(4.0 * pi * options_.smoothness / area) / options_.kappa);
+    deviations.push_back(
+      std::sqrt(4.0 * double(EIGEN_PI) * options_.smoothness / area) / options_.kappa);
   }
   return deviations;
 }

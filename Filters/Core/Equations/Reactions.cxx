@@ -122,7 +122,7 @@ ReactionSystem AllenCahn()
 {
   ReactionSystem system;
   system.diffusion = { 1.0 };
-  system.patternLength = 2.0 * std::acos(-1.0); // shorter waves fade
+  system.patternLength = 2.0 * double(EIGEN_PI); // shorter waves fade
   system.step = 0.2;
   system.frame = 0.4;
   system.rest = { -1.0 };

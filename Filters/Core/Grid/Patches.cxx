@@ -1,6 +1,7 @@
 #include "Base/Grouping.h"
 #include "Base/Parallel.h"
 #include "Base/PerThreadLists.h"
+#include "Base/SortEachOnce.h"
 #include "Base/UnionFind.h"
 #include "Grid/PatchChoice.h"
 #include "Grid/PatchLevel.h"
@@ -120,8 +121,7 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
         {
           seconds.push_back(links[byFirst.item[k]].second);
         }
-        std::sort(seconds.begin(), seconds.end());
-        seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
+        SortEachOnce(seconds);
         for (const Index second : seconds)
         {
           sorted.emplace_back(first, second);

@@ -2,6 +2,7 @@
 
 #include "Base/Grouping.h"
 #include "Base/PerThreadLists.h"
+#include "Base/SortEachOnce.h"
 
 #include <algorithm>
 
@@ -45,8 +46,7 @@ void LinkManySides(const ManySidedEdge& edge, const Array<Index>& stretches,
         pieces.push_back(place[piece]);
       }
     }
-    std::sort(pieces.begin(), pieces.end());
-    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+    SortEachOnce(pieces);
     LinkStar(
       pieces, [&](Index piece) { return clipped.CellOf(piece); }, links);
   }

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Base/SortEachOnce.h"
 
 #include <algorithm>
 #include <cstring>
@@ -25,8 +26,7 @@ std::uint64_t HashPlace(const Place& place)
 
 PlaceNumbers::PlaceNumbers(std::vector<Place> places) : places_(std::move(places))
 {
-  std::sort(places_.begin(), places_.end());
-  places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  SortEachOnce(places_);
   RequireIndices(static_cast<double>(places_.size()), "places of points");
   std::size_t size = 64;
   while (size < 16 * places_.size())

@@ -1,6 +1,7 @@
 #include "Grid/SurfaceEdges.h"
 
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceSides.h"
 #include "Grid/TriangleSides.h"
@@ -141,8 +142,7 @@ std::vector<Id> EndsOf(const std::vector<TriangleEdge>& edges, const TriangleMes
     const auto own = edge.Ends(mesh);
     ends.insert(ends.end(), own.begin(), own.end());
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  SortEachOnce(ends);
   return ends;
 }
 

@@ -46,11 +46,6 @@ MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values
 template<int Functions>
 EdgeSamples SampleSegments(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
   const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments);
-inline EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
-  const std::vector<TriangleSegment>& segments)
-{
-  return SampleSegments(space, space.Finest(), mesh, segments);
-}
 
 /// Returns the point of a segment at parameter t in [0, 1], in a triangle with corners a, b and c.
 inline Vec3 PointOfSegment(

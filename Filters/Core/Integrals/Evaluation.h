@@ -50,10 +50,6 @@ MultiVector MeanDirections(
 template<int Functions>
 SparseMatrix EvaluationRows(const GridFunctions& space, const BasicPatchLevel<Functions>& level,
   const std::vector<Id>& points);
-inline SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points)
-{
-  return EvaluationRows(space, space.Finest(), points);
-}
 
 /// Returns the area-weighted mean of values on source triangles over each finest patch. Patches
 /// without area get 0.

@@ -18,6 +18,37 @@ struct Sample
   Lanes weight;
 };
 
+/// `Numbers` sums in every lane for each of `Width` fields. They begin at 0.
+template<int Numbers, int Width>
+class LaneSums
+{
+public:
+  static constexpr int Count = Width;
+
+  /// Stores the sums over all lanes, number by number.
+  void Write(double* share) const
+  {
+    for (int i = 0; i < Numbers; ++i)
+    {
+      for (int c = 0; c < Width; ++c)
+      {
+        share[i * Width + c] = SumOverLanes(sum_[c][i]);
+      }
+    }
+  }
+
+protected:
+  LaneSums()
+  {
+    for (auto& column : sum_)
+    {
+      column.fill(Lanes::Zero());
+    }
+  }
+
+  std::array<std::array<Lanes, Numbers>, Width> sum_;
+};
+
 /// Sums ∫ f b_i over a patch, for several fields at once. Write stores the sums function by
 /// function.
 template<int Functions, int Width>
@@ -46,19 +77,9 @@ struct Bilinear
 };
 
 template<int Width>
-class ValueSums<FunctionsPerPatch, Width>
+class ValueSums<FunctionsPerPatch, Width> : public LaneSums<FunctionsPerPatch, Width>
 {
 public:
-  static constexpr int Count = Width;
-
-  ValueSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
   EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const Lanes* value)
   {
     const Bilinear across(sample.position[0], sample.position[1]);
@@ -75,38 +96,17 @@ public:
     }
   }
 
-  void Write(double* share) const
-  {
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (int c = 0; c < Width; ++c)
-      {
-        share[i * Width + c] = SumOverLanes(sum_[c][i]);
-      }
-    }
-  }
-
 private:
-  std::array<std::array<Lanes, FunctionsPerPatch>, Width> sum_;
+  using LaneSums<FunctionsPerPatch, Width>::sum_;
 };
 
 /// Up to the sign, the derivative of a function along an axis is the
 /// product of its linear functions along the other two axes. Four sums per axis therefore serve all
 /// eight functions.
 template<int Width>
-class GradientSums<FunctionsPerPatch, Width>
+class GradientSums<FunctionsPerPatch, Width> : public LaneSums<12, Width>
 {
 public:
-  static constexpr int Count = Width;
-
-  GradientSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
   EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const LaneVector* vector)
   {
     for (int p = 0; p < 3; ++p)
@@ -145,7 +145,7 @@ public:
   }
 
 private:
-  std::array<std::array<Lanes, 12>, Width> sum_;
+  using LaneSums<12, Width>::sum_;
 };
 
 /// Stores the differences of the coefficients along the axes.
@@ -187,19 +187,9 @@ private:
 };
 
 template<int Width>
-class ValueSums<SmoothFunctionsPerPatch, Width>
+class ValueSums<SmoothFunctionsPerPatch, Width> : public LaneSums<SmoothFunctionsPerPatch, Width>
 {
 public:
-  static constexpr int Count = Width;
-
-  ValueSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
   EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const Lanes* value)
   {
     const QuadraticAxis<Lanes> x(sample.position[0]);
@@ -219,35 +209,14 @@ public:
     }
   }
 
-  void Write(double* share) const
-  {
-    for (int i = 0; i < SmoothFunctionsPerPatch; ++i)
-    {
-      for (int c = 0; c < Width; ++c)
-      {
-        share[i * Width + c] = SumOverLanes(sum_[c][i]);
-      }
-    }
-  }
-
 private:
-  std::array<std::array<Lanes, SmoothFunctionsPerPatch>, Width> sum_;
+  using LaneSums<SmoothFunctionsPerPatch, Width>::sum_;
 };
 
 template<int Width>
-class GradientSums<SmoothFunctionsPerPatch, Width>
+class GradientSums<SmoothFunctionsPerPatch, Width> : public LaneSums<SmoothFunctionsPerPatch, Width>
 {
 public:
-  static constexpr int Count = Width;
-
-  GradientSums()
-  {
-    for (auto& column : sum_)
-    {
-      column.fill(Lanes::Zero());
-    }
-  }
-
   EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const LaneVector* vector)
   {
     const QuadraticAxis<Lanes> x(sample.position[0]);
@@ -270,19 +239,8 @@ public:
     }
   }
 
-  void Write(double* share) const
-  {
-    for (int i = 0; i < SmoothFunctionsPerPatch; ++i)
-    {
-      for (int c = 0; c < Width; ++c)
-      {
-        share[i * Width + c] = SumOverLanes(sum_[c][i]);
-      }
-    }
-  }
-
 private:
-  std::array<std::array<Lanes, SmoothFunctionsPerPatch>, Width> sum_;
+  using LaneSums<SmoothFunctionsPerPatch, Width>::sum_;
 };
 
 template<>

@@ -235,6 +235,17 @@ EIGEN_ALWAYS_INLINE void WithScale(const Field* scale, const SourceLanes& source
   }
 }
 
+/// Adds vectors that are constant on each triangle of a batch, times the scale.
+template<class Sums>
+EIGEN_ALWAYS_INLINE void AddConstant(const TriangleBatch& batch, const SourceLanes& source,
+  const QuadratureRule& rule, const Field* scale, const LaneVector* vector, Sums& sums)
+{
+  WithScale(scale, source,
+    [&](const LinearLanes* factor) {
+      ForEachSample(batch, rule, factor, [&](const Sample& sample) { sums.Add(sample, vector); });
+    });
+}
+
 /// Returns factor (v - <n, v> n).
 EIGEN_ALWAYS_INLINE LaneVector Tangential(
   const LaneVector& vector, const LaneVector& normal, double factor)
@@ -434,11 +445,7 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space,
       {
         slope[c] = source.Column(f, rows, first + c).slope;
       }
-      WithScale(scale, source,
-        [&](const LinearLanes* factor) {
-          ForEachSample(
-            batch, rule, factor, [&](const Sample& sample) { sums.Add(sample, slope); });
-        });
+      AddConstant(batch, source, rule, scale, slope, sums);
     });
 }
 
@@ -465,11 +472,7 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space,
                                                         source.Normal().axis[axis]);
         }
       }
-      WithScale(scale, source,
-        [&](const LinearLanes* factor) {
-          ForEachSample(
-            batch, rule, factor, [&](const Sample& sample) { sums.Add(sample, slope); });
-        });
+      AddConstant(batch, source, rule, scale, slope, sums);
     });
 }
 

@@ -74,17 +74,6 @@ inline MultiVector IntegrateGradients(const GridFunctions& space, const Triangle
 {
   return IntegrateGradients(space, space.Finest(), mesh, s, scale, rule, job);
 }
-inline MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& s, const QuadratureRule& rule, const Job& job = {})
-{
-  return IntegrateTurnedGradients(space, space.Finest(), mesh, s, rule, job);
-}
-inline MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
-  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule,
-  const Job& job = {})
-{
-  return IntegrateDirections(space, space.Finest(), mesh, coefficients, scale, rule, job);
-}
 inline MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
   const Field& f, const Field* scale, const QuadratureRule& rule, const Job& job = {})
 {

@@ -124,7 +124,7 @@ private:
     {
       area += 0.5 * AreaVector(points_, { c[0], c[1], c[2] }).norm();
     }
-    const double circle = std::sqrt(4.0 * 3.14159265358979323846 * area);
+    const double circle = std::sqrt(4.0 * double(EIGEN_PI) * area);
     return length <= (cuts_.empty() ? ShortUncut : ShortCut) * circle;
   }
 

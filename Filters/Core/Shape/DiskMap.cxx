@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-constexpr double FullTurn = 2.0 * 3.14159265358979323846;
+constexpr double FullTurn = 2.0 * double(EIGEN_PI);
 
 /// Raises the weights of edges that are smaller than the least.
 DiskMatrix WithRaisedWeights(DiskMatrix stiffness, double least)

@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-constexpr double Degree = 3.14159265358979323846 / 180.0;
+constexpr double Degree = double(EIGEN_PI) / 180.0;
 
 /// The least difference between the sum of two sides and the third, relative to the mean side.
 constexpr double LeastSlack = 1e-9;

@@ -14,8 +14,6 @@ namespace gridfem
 namespace
 {
 
-constexpr double Pi = 3.14159265358979323846;
-
 std::vector<double> Areas(const TriangleMesh& mesh, int threads)
 {
   std::vector<double> area(mesh.triangles.size());
@@ -89,7 +87,9 @@ double StretchRatio(const Vec3& u, const Vec3& v, double ratio, const Vec3& a, c
 
 double SurfaceSize::Sphericity() const
 {
-  return area > 0.0 ? std::cbrt(Pi) * std::pow(6.0 * std::abs(volume), 2.0 / 3.0) / area : 0.0;
+  return area > 0.0
+           ? std::cbrt(double(EIGEN_PI)) * std::pow(6.0 * std::abs(volume), 2.0 / 3.0) / area
+           : 0.0;
 }
 
 SurfaceSize SizeOf(

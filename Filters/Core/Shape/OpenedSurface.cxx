@@ -1,6 +1,7 @@
 #include "Shape/OpenedSurface.h"
 
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Grid/CopiedTriangles.h"
 #include "Grid/CornerClasses.h"
 #include "Grid/SurfaceSides.h"
@@ -117,8 +118,7 @@ public:
       const auto& places = sheets.triangles.places[member];
       placeOf_.insert(placeOf_.end(), places.begin(), places.end());
     }
-    std::sort(placeOf_.begin(), placeOf_.end());
-    placeOf_.erase(std::unique(placeOf_.begin(), placeOf_.end()), placeOf_.end());
+    SortEachOnce(placeOf_);
     for (const Index place : placeOf_)
     {
       points_.push_back(mesh.points[place]);
@@ -181,7 +181,7 @@ private:
     {
       area += 0.5 * AreaVector(points_, { c[0], c[1], c[2] }).norm();
     }
-    return std::sqrt(4.0 * 3.14159265358979323846 * area);
+    return std::sqrt(4.0 * double(EIGEN_PI) * area);
   }
 
   /// Covers every small loop with triangles around its middle.

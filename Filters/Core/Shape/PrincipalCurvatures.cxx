@@ -18,8 +18,6 @@ namespace gridfem
 namespace
 {
 
-constexpr double HalfTurn = 3.14159265358979323846;
-
 /// A symmetric tensor in the plane across a normal.
 using Tensor = Eigen::Matrix3d;
 
@@ -481,7 +479,7 @@ double ShapeIndex(double minimum, double maximum)
 {
   return minimum == 0.0 && maximum == 0.0
            ? 0.0
-           : 2.0 / HalfTurn * std::atan2(minimum + maximum, maximum - minimum);
+           : 2.0 / double(EIGEN_PI) * std::atan2(minimum + maximum, maximum - minimum);
 }
 
 std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double area)
@@ -503,7 +501,7 @@ std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double a
   }
   std::vector<double> bending(meanCurvature.size());
   std::transform(meanCurvature.begin(), meanCurvature.end(), bending.begin(),
-    [unit](double curvature) { return 2.0 / HalfTurn * std::atan2(curvature, unit); });
+    [unit](double curvature) { return 2.0 / double(EIGEN_PI) * std::atan2(curvature, unit); });
   return bending;
 }
 

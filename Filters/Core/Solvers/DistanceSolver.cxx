@@ -2,12 +2,12 @@
 
 #include "Algebra/DistributedRows.h"
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Distance/NearestSource.h"
 #include "Solvers/DistanceHierarchy.h"
 #include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -80,8 +80,7 @@ std::vector<Id> CollectSources(const TriangleMesh& mesh, const DistanceSolver::I
     const std::vector<Id> found = points.find();
     sources.insert(sources.end(), found.begin(), found.end());
   }
-  std::sort(sources.begin(), sources.end());
-  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  SortEachOnce(sources);
   return sources;
 }
 

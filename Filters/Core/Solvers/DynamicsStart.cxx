@@ -27,7 +27,6 @@ struct SpaceWave
 std::vector<SpaceWave> RandomWaves(double wavelength, std::uint64_t seed, std::uint64_t series)
 {
   constexpr int Count = 64;
-  const double pi = std::acos(-1.0);
   const NormalNumbers numbers(seed, series);
   std::vector<SpaceWave> waves;
   for (std::uint64_t k = 0; k < Count; ++k)
@@ -36,8 +35,9 @@ std::vector<SpaceWave> RandomWaves(double wavelength, std::uint64_t seed, std::u
     const std::array<double, 2> b = numbers.Pair(3 * k + 1);
     const std::array<double, 2> c = numbers.Pair(3 * k + 2);
     const double relative = 0.5 + (double(k) + 0.5) / Count;
-    waves.push_back({ Vec3(a[0], a[1], b[0]).normalized() * (relative * 2.0 * pi / wavelength),
-      c[0] / std::sqrt(double(Count)), c[1] / std::sqrt(double(Count)) });
+    waves.push_back(
+      { Vec3(a[0], a[1], b[0]).normalized() * (relative * 2.0 * double(EIGEN_PI) / wavelength),
+        c[0] / std::sqrt(double(Count)), c[1] / std::sqrt(double(Count)) });
   }
   return waves;
 }

@@ -167,9 +167,4 @@ void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
     AvailableMemory());
 }
 
-void RequireMemoryForModes(Id functions, Id modes, int threads)
-{
-  RequireMemory(NeedOfModes(functions, modes, threads), AvailableMemory());
-}
-
 } // namespace gridfem

@@ -75,10 +75,6 @@ void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind);
 /// The same for hat functions above an existing grid with this number of functions.
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions);
 
-/// Throws InvalidInput, with the estimate, when this number of eigenvectors needs more memory than
-/// there is.
-void RequireMemoryForModes(Id functions, Id modes, int threads);
-
 } // namespace gridfem
 
 #endif

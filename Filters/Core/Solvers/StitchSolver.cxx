@@ -1,6 +1,7 @@
 #include "Solvers/StitchSolver.h"
 
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 
@@ -41,8 +42,7 @@ std::vector<double> DistinctLabels(const std::string& name, const Field& labels)
 {
   const double* begin = labels.values.data();
   std::vector<double> distinct(begin, begin + labels.values.size());
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  SortEachOnce(distinct);
   for (const double label : distinct)
   {
     if (label != std::floor(label))

@@ -1,13 +1,11 @@
 #include "Spaces/SmoothSpace.h"
 
 #include "Base/Errors.h"
-#include "Integrals/Evaluation.h"
-#include "Integrals/LoadVector.h"
-#include "Spaces/PatchOrdering.h"
+#include "Base/Parallel.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace gridfem
 {
@@ -44,22 +42,6 @@ bool IsUsableWeight(double weight)
 
 } // namespace
 
-SmoothSpace::SmoothSpace(std::shared_ptr<const TriangleMesh> mesh,
-  std::shared_ptr<const GridFunctions> grid, std::shared_ptr<const SmoothOperators> operators)
-  : mesh_(std::move(mesh)), grid_(std::move(grid)), operators_(std::move(operators))
-{
-}
-
-std::size_t SmoothSpace::NumberOfLevels() const
-{
-  return operators_->levels.size();
-}
-
-Index SmoothSpace::NumberOfFunctions(std::size_t level) const
-{
-  return operators_->levels.at(level).numberOfFunctions;
-}
-
 void SmoothSpace::FillMatrix(
   std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const
 {
@@ -67,46 +49,9 @@ void SmoothSpace::FillMatrix(
   Combine(a, matrices.mass.at(level), b, matrices.stiffness.at(level), matrix, job.threads);
 }
 
-SharedMatrix SmoothSpace::Prolongation(std::size_t level) const
+Components SmoothSpace::FinestComponents() const
 {
-  return operators_->prolongation.at(level);
-}
-
-SharedMatrix SmoothSpace::Restriction(std::size_t level) const
-{
-  return operators_->restriction.at(level);
-}
-
-LevelRelaxation SmoothSpace::Relaxation(std::size_t level, const MultigridOptions&) const
-{
-  return { OrderPatches(operators_->levels.at(level)), {}, {} };
-}
-
-Components SmoothSpace::ComponentsOf(std::size_t level, const Job& job) const
-{
-  if (level == 0)
-  {
-    return { operators_->component, operators_->numberOfComponents, {} };
-  }
-  Components components;
-  components.ofFunction = FunctionComponents(operators_->levels.at(level), job.threads);
-  components.count = NumberOfComponents(components.ofFunction);
-  return components;
-}
-
-double SmoothSpace::UnitLength() const
-{
-  return grid_->GetGrid().spacing;
-}
-
-Vec3 SmoothSpace::Origin() const
-{
-  return grid_->GetGrid().origin;
-}
-
-double SmoothSpace::Extent() const
-{
-  return grid_->GetGrid().CellsPerSide();
+  return { operators_->component, operators_->numberOfComponents, {} };
 }
 
 const std::vector<double>& SmoothSpace::Integrals() const
@@ -114,96 +59,11 @@ const std::vector<double>& SmoothSpace::Integrals() const
   return this->Matrices().integral;
 }
 
-MultiVector SmoothSpace::LoadOfValues(const Field& f, const Job& job) const
-{
-  return IntegrateValues(
-    *grid_, this->Finest(), *mesh_, f, this->Rule(), job, metric_ ? &metric_->area : nullptr);
-}
-
-MultiVector SmoothSpace::LoadOfWeightedValues(
-  const Field& f, const std::vector<double>& weight, const Job& job) const
-{
-  RequireWeights(weight, *mesh_);
-  const std::vector<double> all = metric_ ? ProductOf(weight, metric_->area) : weight;
-  return IntegrateValues(*grid_, this->Finest(), *mesh_, f, this->Rule(), job, &all);
-}
-
-MultiVector SmoothSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
-{
-  return IntegrateGradients(*grid_, this->Finest(), *mesh_,
-    metric_ ? metric_->Transform(*mesh_, s) : s, scale, this->Rule(), job);
-}
-
-MultiVector SmoothSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
-{
-  return IntegrateTurnedGradients(*grid_, this->Finest(), *mesh_, s, this->Rule(), job);
-}
-
-MultiVector SmoothSpace::LoadOfDirections(
-  const MultiVector& coefficients, const Field* scale, const Job& job) const
-{
-  return IntegrateDirections(
-    *grid_, this->Finest(), *mesh_, coefficients, scale, this->Rule(), job);
-}
-
-MultiVector SmoothSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
-{
-  return metric_
-           ? this->LoadOfGradients(GradientsOf(*mesh_, f), scale, job)
-           : IntegrateGradientsOf(*grid_, this->Finest(), *mesh_, f, scale, this->Rule(), job);
-}
-
-MultiVector SmoothSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
-{
-  if (metric_)
-  {
-    return scale ? this->LoadOfGradientsOf(CoordinatesOf(*mesh_), scale, job)
-                 : this->StiffnessTimes(this->UnitLength() * this->EmbeddingOfMesh(job), {}, job);
-  }
-  return IntegrateGradientsOfCoordinates(
-    *grid_, this->Finest(), *mesh_, scale, this->Rule(), operators_->normalStabilization, job);
-}
-
-MultiVector SmoothSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
-{
-  return EvaluateAtPoints(*grid_, this->Finest(), coefficients, job);
-}
-
-MultiVector SmoothSpace::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
-{
-  return MeanGradients(
-    *grid_, this->Finest(), static_cast<Id>(mesh_->triangles.size()), coefficients, job);
-}
-
 Columns SmoothSpace::SquaredNorms(const MultiVector& u, const Job& job) const
 {
   MultiVector product;
   Multiply(this->Matrices().mass.front(), u, product, job.threads);
   return ColumnProducts(u, product, job.threads);
-}
-
-SparseMatrix SmoothSpace::RowsAtPoints(const std::vector<Id>& points) const
-{
-  return EvaluationRows(*grid_, this->Finest(), points);
-}
-
-EdgeSamples SmoothSpace::SamplesOfSegments(const std::vector<TriangleSegment>& segments) const
-{
-  return SampleSegments(*grid_, this->Finest(), *mesh_, segments);
-}
-
-SampledFunctions SmoothSpace::Samples(const Job& job) const
-{
-  return SampleFunctions(
-    *grid_, this->Finest(), this->Rule(), job, metric_ ? &metric_->area : nullptr);
-}
-
-std::vector<char> SmoothSpace::PointsWithFunctions() const
-{
-  std::vector<char> has(grid_->pointPatch.size());
-  std::transform(grid_->pointPatch.begin(), grid_->pointPatch.end(), has.begin(),
-    [](Index patch) { return patch >= 0; });
-  return has;
 }
 
 /// Quadratic B-splines reproduce coordinates: each coefficient is the center of its function's
@@ -266,30 +126,15 @@ Id SmoothSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementP
   return singular;
 }
 
-/// @param weight  weight of the mass on each triangle
-void SmoothSpace::Integrate(const std::vector<double>* weight, const Job& job)
+void SmoothSpace::IntegrateTriangles(const std::vector<double>& weight, const Job& job)
 {
   SmoothWeights weights;
-  weights.mass = weight;
+  weights.mass = &weight;
   weights.tensor = metric_ ? &metric_->tensor : nullptr;
   tensor_.reset();
   normal_.reset();
   own_ =
     std::make_shared<const SmoothMatrices>(IntegrateMatrices(*grid_, *operators_, weights, job));
-}
-
-void SmoothSpace::SetMetricOnTriangles(std::shared_ptr<const TriangleMetric> metric, const Job& job)
-{
-  RequireMetric(*metric, *mesh_);
-  metric_ = std::move(metric);
-  this->Integrate(&metric_->area, job);
-}
-
-void SmoothSpace::WeighMass(const std::vector<double>& weight, const Job& job)
-{
-  RequireWeights(weight, *mesh_);
-  const std::vector<double> all = metric_ ? ProductOf(weight, metric_->area) : weight;
-  this->Integrate(&all, job);
 }
 
 void SmoothSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job&)

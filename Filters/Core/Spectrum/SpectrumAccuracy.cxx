@@ -50,7 +50,7 @@ bool IsMultiplet(double a, double b, Id count)
 
 double LowestValue(double area, double side)
 {
-  const double pi = 3.14159265358979323846;
+  const auto pi = double(EIGEN_PI);
   return std::min(4.0 * pi / area, pi * pi / (side * side));
 }
 

@@ -272,11 +272,12 @@ TEST(MemoryEstimate, KnowsWhatTheMachineHas)
 TEST(MemoryEstimate, KnowsTheLimitOfTheProcess)
 {
   constexpr double Room = 3e8;
-  const auto isRefused = []
+  const MemoryNeed need = NeedOfModes(100000, 300, 1);
+  const auto isRefused = [&need]
   {
     try
     {
-      RequireMemoryForModes(100000, 300, 1);
+      RequireMemory(need, AvailableMemory());
       return false;
     }
     catch (const InvalidInput&)
@@ -284,7 +285,7 @@ TEST(MemoryEstimate, KnowsTheLimitOfTheProcess)
       return true;
     }
   };
-  ASSERT_GT(NeedOfModes(100000, 300, 1).bytes, 1.5 * Room);
+  ASSERT_GT(need.bytes, 1.5 * Room);
   EXPECT_FALSE(isRefused());
   double room = 0.0;
   bool isRefusedWithin = false;

@@ -2,11 +2,10 @@
 
 #include "Input/NearestPoints.h"
 
+#include "Base/SortEachOnce.h"
 #include "Distance/NearestSource.h"
 
 #include "vtkDataSet.h"
-
-#include <algorithm>
 
 namespace gridfem
 {
@@ -21,8 +20,7 @@ std::vector<Id> SourcePoints(const TriangleMesh& mesh, const std::vector<Id>& id
     const std::vector<Id> nearest = NearestPointsAlongLines(mesh, places, "Sources", warnings);
     sources.insert(sources.end(), nearest.begin(), nearest.end());
   }
-  std::sort(sources.begin(), sources.end());
-  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  SortEachOnce(sources);
   return sources;
 }
 

@@ -12,6 +12,7 @@
 #include "Pieces/ReceivedArrays.h"
 #include "Pipeline/Allocation.h"
 
+#include "Base/SortEachOnce.h"
 #include "Integrals/Evaluation.h"
 #include "Parallel/RankClip.h"
 #include "Parallel/ShownParts.h"
@@ -171,8 +172,7 @@ void PieceClip::WriteFrame()
     [&]
     {
       // A piece without area may belong to a patch of another rank. Both then have its cell.
-      std::sort(cells_.begin(), cells_.end());
-      cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+      SortEachOnce(cells_);
       const std::vector<Id> points = PointsOfPieces(*clipped_);
       points_.assign(points.begin(), points.end());
       const ClippedMesh shown = WithPoints(*clipped_, points);
