@@ -2,6 +2,7 @@
 #ifndef GridFEM_Testing_FilterSupport_h
 #define GridFEM_Testing_FilterSupport_h
 
+#include "ExpectOne.h"
 #include "Largest.h"
 #include "Meshes.h"
 
@@ -92,7 +93,7 @@ inline bool PassesOn(vtkAlgorithm* filter, const char* result)
 class Messages
 {
 public:
-  explicit Messages(vtkAlgorithm* algorithm)
+  explicit Messages(vtkAlgorithm* algorithm) : algorithm_(algorithm)
   {
     errorCommand_->SetClientData(&errors);
     errorCommand_->SetCallback(&Messages::Collect);
@@ -104,6 +105,12 @@ public:
     algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, quiet_);
   }
 
+  ~Messages()
+  {
+    algorithm_->RemoveObserver(errorCommand_);
+    algorithm_->RemoveObserver(warningCommand_);
+  }
+
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
 
@@ -113,6 +120,7 @@ private:
     static_cast<std::vector<std::string>*>(list)->emplace_back(static_cast<const char*>(text));
   }
 
+  vtkSmartPointer<vtkAlgorithm> algorithm_;
   vtkNew<vtkCallbackCommand> errorCommand_;
   vtkNew<vtkCallbackCommand> warningCommand_;
   vtkNew<vtkCallbackCommand> quiet_;
@@ -170,6 +178,19 @@ inline bool IsEmptyData(vtkDataObject* data)
          data->GetNumberOfElements(vtkDataObject::CELL) <= 0 &&
          data->GetNumberOfElements(vtkDataObject::ROW) <= 0 &&
          data->GetFieldData()->GetNumberOfArrays() == 0;
+}
+
+/// Expects that a run fails with a single error, which contains all the parts, and without output.
+template<class... Parts>
+void ExpectRefused(vtkAlgorithm* filter, const Parts&... parts)
+{
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ExpectOne(messages.errors, parts...);
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(port))) << "port " << port;
+  }
 }
 
 } // namespace gridfem::testing

@@ -218,17 +218,14 @@ TEST_P(MeanCurvatureFlowFilter, ClippingAgainIsNearTracking)
   EXPECT_NEAR(this->Column("Area")[5], tracked[5], 0.01 * tracked[5]);
   EXPECT_LT(Difference(Values(filter->GetOutput()->GetPoints()->GetData()), moved), 0.02);
   filter->ConformalizedOn();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Track Metric"), std::string::npos);
+  ExpectRefused(filter, "Track Metric");
 }
 
 TEST_P(MeanCurvatureFlowFilter, TheConformalisedFlowWarnsWhereNoSphereComesOut)
 {
   filter->ConformalizedOn();
   filter->Update();
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("sphere"), std::string::npos);
+  ExpectOne(messages.warnings, "sphere");
   this->PointsAt(2);
   EXPECT_EQ(messages.warnings.size(), 1u); // not at every time step
   const auto area = this->Column("Area");
@@ -244,8 +241,7 @@ TEST_P(MeanCurvatureFlowFilter, AVanishedSurfaceEndsTheFlowWithAWarning)
   filter->SetTimeStep(0.02);
   filter->SetNumberOfSteps(60);
   filter->Update();
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("ends after"), std::string::npos);
+  ExpectOne(messages.warnings, "ends after");
   EXPECT_TRUE(messages.errors.empty());
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(AllFinite(Values(filter->GetOutput()->GetPoints()->GetData())));
@@ -318,9 +314,7 @@ TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
   filter->FixedBoundaryOn();
   filter->TrackMetricOn();
   filter->ConformalizedOn();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Fixed Boundary"), std::string::npos);
+  ExpectRefused(filter, "Fixed Boundary");
 }
 
 TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
@@ -328,22 +322,18 @@ TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
   for (const double step : { 0.0, -1.0, std::nan(""), double(HUGE_VAL) })
   {
     filter->SetTimeStep(step);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find("Time Step"), std::string::npos);
-    messages.errors.clear();
+    ExpectRefused(filter, "Time Step");
   }
   filter->SetTimeStep(1e-3);
   filter->SetInputData(ToPolyData(FlatRectangle(6, 6)));
   filter->SetRescale(Flow::ConstantVolume);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+  ExpectRefused(filter);
+  messages.errors.clear();
   filter->SetInputData(vtkNew<vtkPolyData>());
   EXPECT_EQ(filter->GetExecutive()->Update(), 1);
   EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(1)));
-  EXPECT_EQ(messages.errors.size(), 1u);
+  EXPECT_TRUE(messages.errors.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, MeanCurvatureFlowFilter,

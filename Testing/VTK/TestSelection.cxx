@@ -152,15 +152,6 @@ std::vector<vtkIdType> Selected(vtkDataObject* data, vtkSelection* selection)
   return Selected(filter->GetOutput());
 }
 
-void ExpectRefused(vtkAlgorithm* filter, const std::string& reason)
-{
-  const Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
-  EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(0)));
-}
-
 template<class Filter>
 vtkSmartPointer<Filter> SolverOf(vtkPolyData* data)
 {

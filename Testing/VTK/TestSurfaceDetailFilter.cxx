@@ -539,11 +539,7 @@ TEST(SurfaceDetailOfVTK, RefusesWhatItCannotUse)
     const auto sphere = WavySphere();
     const auto filter = DetailOf(sphere, vtkSurfaceFEMAlgorithm::Grid);
     set(filter);
-    const Messages messages(filter);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << name;
-    ASSERT_EQ(messages.errors.size(), 1u) << name;
-    EXPECT_NE(messages.errors[0].find(name), std::string::npos) << messages.errors[0];
-    EXPECT_TRUE(IsEmptyData(filter->GetOutput())) << name;
+    ExpectRefused(filter, name);
   };
   refuses("Detail Scale", [](auto* filter) { filter->SetDetailScale(NaN); });
   refuses("Screening Weight", [](auto* filter) { filter->SetScreeningWeight(-1.0); });
