@@ -9,8 +9,6 @@
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
-#include "vtkInformation.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStripper.h"
 #include "vtkTable.h"
 
@@ -123,17 +121,6 @@ TEST_F(HatLaplaceSpectrum, ModesAreOrthonormalInTheMassOfTheMesh)
     1e-9);
 }
 
-TEST_F(HatLaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
-{
-  filter->AllModesOn();
-  filter->Update();
-  const auto fifth = PointValues(filter->GetOutput(), "Mode005");
-  filter->AllModesOff();
-  filter->UpdateTimeStep(5);
-  EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), fifth);
-  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
-}
-
 TEST_F(HatLaplaceSpectrum, StripsSoupAndFoldsAreTheirTriangles)
 {
   vtkNew<vtkStripper> stripper;
@@ -194,17 +181,6 @@ TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)
   }
 }
 
-TEST_F(HatLaplaceSpectrum, AFieldArrayTellsOfACutGroup)
-{
-  filter->SetNumberOfModes(6);
-  EXPECT_EQ(this->Eigenvalues().size(), 6u);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 1);
-  filter->SetNumberOfModes(9);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 0);
-  EXPECT_TRUE(messages.warnings.empty());
-}
-
 TEST_F(HatLaplaceSpectrum, MoreModesThanHatsWarnsAndGivesAll)
 {
   filter->SetInputData(ToPolyData(GeodesicSphere(2)));
@@ -212,15 +188,6 @@ TEST_F(HatLaplaceSpectrum, MoreModesThanHatsWarnsAndGivesAll)
   EXPECT_EQ(this->Eigenvalues().size(), 18u); // 4 n² + 2 points
   ASSERT_FALSE(messages.warnings.empty());
   EXPECT_NE(messages.warnings[0].find("hat functions of this mesh"), std::string::npos);
-}
-
-TEST_F(HatLaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
-{
-  filter->SetTolerance(1e-16);
-  filter->SetMaximumIterations(1);
-  EXPECT_EQ(this->Eigenvalues().size(), std::size_t(Modes));
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
 }
 
 TEST_F(HatLaplaceSpectrum, AnAccuracyThatTheMeshDoesNotHaveIsReported)
@@ -235,16 +202,6 @@ TEST_F(HatLaplaceSpectrum, AnAccuracyThatTheMeshDoesNotHaveIsReported)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
   ExpectOne(messages.warnings, "subdivide the mesh");
   EXPECT_LE(FieldValue(filter->GetOutput(), "UsedDepth"), 6); // no depth helps, so none is tried
-}
-
-TEST_F(HatLaplaceSpectrum, ThreadsDoNotChangeABit)
-{
-  filter->SetNumberOfThreads(1);
-  filter->Update();
-  const auto one = PointValues(filter->GetOutput(), "Mode");
-  filter->SetNumberOfThreads(2);
-  filter->Update();
-  EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), one);
 }
 
 TEST_F(HatLaplaceSpectrum, SignaturesAreThoseOfItsModes)

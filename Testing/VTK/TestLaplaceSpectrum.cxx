@@ -149,43 +149,6 @@ TEST_F(LaplaceSpectrum, ModesHaveUnitNormInWorldUnits)
   }
 }
 
-TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
-{
-  filter->UpdateInformation();
-  for (int port = 0; port < 2; ++port)
-  {
-    vtkInformation* info = filter->GetOutputInformation(port);
-    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 8);
-    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[3], 4.0);
-    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 8.0);
-  }
-  filter->AllModesOn();
-  filter->Update();
-  std::vector<std::vector<double>> modes;
-  for (int mode = 0; mode < 9; ++mode)
-  {
-    modes.push_back(PointValues(filter->GetOutput(), ("Mode00" + std::to_string(mode)).c_str()));
-    EXPECT_FALSE(modes.back().empty());
-  }
-  EXPECT_FALSE(
-    filter->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
-  filter->AllModesOff();
-  for (const int mode : { 3, 1, 8 })
-  {
-    EXPECT_EQ(this->ModeAt(mode), modes[mode]);
-    EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), mode);
-  }
-  EXPECT_EQ(this->ModeAt(100), modes[8]);
-  EXPECT_EQ(this->ModeAt(0), modes[1]); // mode 0 is no time step
-  EXPECT_EQ(this->ModeAt(std::nan("")), modes[1]);
-  filter->SetMode(5);
-  EXPECT_EQ(this->ModeAt(1), modes[5]);
-  filter->SetMode(0);
-  EXPECT_EQ(this->ModeAt(1), modes[0]);
-  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
-  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
-}
-
 TEST_F(LaplaceSpectrum, AModeThatDoesNotExistIsRefused)
 {
   filter->SetMode(9);
@@ -245,26 +208,6 @@ TEST_F(LaplaceSpectrum, ManyModesAnnounceWhatTheyCostAndCanBeAborted)
   ExpectOne(messages.warnings, "15000 modes of", "hours");
   ASSERT_TRUE(filter->GetProgressText());
   EXPECT_NE(std::string(filter->GetProgressText()).find("hours"), std::string::npos);
-}
-
-TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
-{
-  filter->SetTolerance(1e-16);
-  filter->SetMaximumIterations(1);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u);
-  ExpectOne(messages.warnings, "residual");
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
-}
-
-TEST_F(LaplaceSpectrum, AFieldArrayTellsOfACutGroup)
-{
-  filter->SetNumberOfModes(6);
-  EXPECT_EQ(this->Eigenvalues().size(), 6u);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 1);
-  filter->SetNumberOfModes(9);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 0);
-  EXPECT_TRUE(messages.warnings.empty());
 }
 
 TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
@@ -366,21 +309,6 @@ TEST_F(LaplaceSpectrum, ModesOfADrumAreZeroOnItsBoundary)
   EXPECT_TRUE(messages.warnings.empty());
 }
 
-TEST_F(LaplaceSpectrum, ARunRepeatsBitForBitAndThreadsAgree)
-{
-  filter->SetNumberOfThreads(1);
-  const auto one = this->Eigenvalues();
-  vtkNew<Spectrum> again;
-  again->SetDepth(4);
-  again->SetNumberOfModes(9);
-  again->SetNumberOfThreads(1);
-  again->SetInputData(ToPolyData(GeodesicSphere(8)));
-  again->Update();
-  EXPECT_EQ(Values(again->GetOutput()->GetFieldData()->GetArray("Eigenvalues")), one);
-  filter->SetNumberOfThreads(2);
-  EXPECT_LT(Difference(this->Eigenvalues(), one), 1e-9);
-}
-
 TEST_F(LaplaceSpectrum, ModesHaveThePrecisionOfThePoints)
 {
   for (const int precision : { VTK_FLOAT, VTK_DOUBLE })
@@ -390,5 +318,90 @@ TEST_F(LaplaceSpectrum, ModesHaveThePrecisionOfThePoints)
     EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Mode")->GetDataType(), precision);
   }
 }
+
+/// The grid's functions, or hats.
+class LaplaceSpectrumOnEither
+  : public LaplaceSpectrum
+  , public ::testing::WithParamInterface<int>
+{
+protected:
+  LaplaceSpectrumOnEither() { filter->SetFunctionSpace(this->GetParam()); }
+};
+
+TEST_P(LaplaceSpectrumOnEither, TimeStepsAreModesAndAreNeverSolvedAgain)
+{
+  filter->UpdateInformation();
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* info = filter->GetOutputInformation(port);
+    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 8);
+    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[3], 4.0);
+    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 8.0);
+  }
+  filter->AllModesOn();
+  filter->Update();
+  std::vector<std::vector<double>> modes;
+  for (int mode = 0; mode < 9; ++mode)
+  {
+    modes.push_back(PointValues(filter->GetOutput(), ("Mode00" + std::to_string(mode)).c_str()));
+    EXPECT_FALSE(modes.back().empty());
+  }
+  EXPECT_FALSE(
+    filter->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  filter->AllModesOff();
+  for (const int mode : { 3, 1, 8 })
+  {
+    EXPECT_EQ(this->ModeAt(mode), modes[mode]);
+    EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), mode);
+  }
+  EXPECT_EQ(this->ModeAt(100), modes[8]);
+  EXPECT_EQ(this->ModeAt(0), modes[1]); // mode 0 is no time step
+  EXPECT_EQ(this->ModeAt(std::nan("")), modes[1]);
+  filter->SetMode(5);
+  EXPECT_EQ(this->ModeAt(1), modes[5]);
+  filter->SetMode(0);
+  EXPECT_EQ(this->ModeAt(1), modes[0]);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
+}
+
+TEST_P(LaplaceSpectrumOnEither, NotConvergedWarnsAndKeepsTheResult)
+{
+  filter->SetTolerance(1e-16);
+  filter->SetMaximumIterations(1);
+  EXPECT_EQ(this->Eigenvalues().size(), 9u);
+  ExpectOne(messages.warnings, "residual");
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+}
+
+TEST_P(LaplaceSpectrumOnEither, AFieldArrayTellsOfACutGroup)
+{
+  filter->SetNumberOfModes(6);
+  EXPECT_EQ(this->Eigenvalues().size(), 6u);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 1);
+  filter->SetNumberOfModes(9);
+  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 0);
+  EXPECT_TRUE(messages.warnings.empty());
+}
+
+TEST_P(LaplaceSpectrumOnEither, RepeatsBitForBitOnAnyNumberOfThreads)
+{
+  filter->ReleaseDataFlagOn(); // each run starts anew
+  filter->SetNumberOfThreads(1);
+  const auto eigenvalues = this->Eigenvalues();
+  const auto mode = PointValues(filter->GetOutput(), "Mode");
+  for (const int threads : { 1, 2 })
+  {
+    filter->SetNumberOfThreads(threads);
+    filter->Modified();
+    EXPECT_EQ(this->Eigenvalues(), eigenvalues);
+    EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), mode);
+  }
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, LaplaceSpectrumOnEither,
+  ::testing::Values(int(Spectrum::Grid), int(Spectrum::HatFunctions)));
 
 } // namespace
