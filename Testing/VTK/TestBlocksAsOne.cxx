@@ -4,6 +4,7 @@
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
 #include "Largest.h"
+#include "Selections.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkGeodesicDistance.h"
@@ -15,7 +16,6 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkCompositeDataIterator.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkIntArray.h"
@@ -23,8 +23,6 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkSelection.h"
-#include "vtkSelectionNode.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -94,22 +92,6 @@ std::vector<vtkPolyData*> LeavesOf(vtkDataObject* data)
     leaves.push_back(vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()));
   }
   return leaves;
-}
-
-vtkSmartPointer<vtkSelection> SelectPoints(const std::vector<vtkIdType>& points)
-{
-  vtkNew<vtkSelectionNode> node;
-  node->SetFieldType(vtkSelectionNode::POINT);
-  node->SetContentType(vtkSelectionNode::INDICES);
-  vtkNew<vtkIdTypeArray> ids;
-  for (const vtkIdType point : points)
-  {
-    ids->InsertNextValue(point);
-  }
-  node->SetSelectionList(ids);
-  auto selection = vtkSmartPointer<vtkSelection>::New();
-  selection->AddNode(node);
-  return selection;
 }
 
 class BlocksAsOne : public ::testing::Test

@@ -1,14 +1,12 @@
 // Surface Detail as a user of VTK sees it.
 #include "FilterSupport.h"
 #include "Largest.h"
+#include "Selections.h"
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkSurfaceDetail.h"
 
-#include "vtkIdTypeArray.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkSelection.h"
-#include "vtkSelectionNode.h"
 
 #include <gtest/gtest.h>
 
@@ -101,21 +99,15 @@ std::vector<double> PositionsFrom(vtkSurfaceDetail* filter)
 vtkSmartPointer<vtkSelection> Select(
   vtkPolyData* data, const std::function<bool(const Vec3&)>& isSelected)
 {
-  vtkNew<vtkIdTypeArray> ids;
+  std::vector<vtkIdType> ids;
   for (vtkIdType p = 0; p < data->GetNumberOfPoints(); ++p)
   {
     if (isSelected(Vec3(data->GetPoint(p))))
     {
-      ids->InsertNextValue(p);
+      ids.push_back(p);
     }
   }
-  vtkNew<vtkSelectionNode> node;
-  node->SetFieldType(vtkSelectionNode::POINT);
-  node->SetContentType(vtkSelectionNode::INDICES);
-  node->SetSelectionList(ids);
-  auto selection = vtkSmartPointer<vtkSelection>::New();
-  selection->AddNode(node);
-  return selection;
+  return SelectPoints(ids);
 }
 
 /// Selects the points above the height.
