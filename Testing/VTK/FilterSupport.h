@@ -18,6 +18,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +150,13 @@ inline double FieldValue(vtkDataObject* data, const char* name)
 {
   vtkDataArray* array = data->GetFieldData()->GetArray(name);
   return array ? array->GetComponent(0, 0) : std::nan("");
+}
+
+/// Returns a column of a filter's table.
+inline std::vector<double> Column(vtkAlgorithm* filter, const char* name)
+{
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name)));
 }
 
 inline bool AllFinite(const std::vector<double>& values)

@@ -1,12 +1,11 @@
 // Tests Laplace Spectrum: eigenvalues in world units, normalized modes, time steps, caching.
 
-#include "FilterSupport.h"
 #include "Largest.h"
+#include "Spectra.h"
 
 #include "Grid/TriangleMesh.h"
 
 #include "vtkConnectivityAwareBasis.h"
-#include "vtkLaplaceSpectrum.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
@@ -36,12 +35,6 @@ protected:
     filter->SetDepth(4);
     filter->SetNumberOfModes(9);
     filter->SetInputData(ToPolyData(GeodesicSphere(8)));
-  }
-
-  std::vector<double> Eigenvalues()
-  {
-    filter->Update();
-    return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
   }
 
   std::vector<double> ModeAt(double time)
@@ -102,7 +95,7 @@ TEST_F(LaplaceSpectrum, TablesOfAPartitionedCollectionAreAMultiBlock)
 
 TEST_F(LaplaceSpectrum, ASphereHasItsEigenvalues)
 {
-  const auto eigenvalues = this->Eigenvalues();
+  const auto eigenvalues = Eigenvalues(filter);
   ASSERT_EQ(eigenvalues.size(), 9u);
   EXPECT_NEAR(eigenvalues[0], 0.0, 1e-8);
   for (int k = 1; k < 9; ++k)
@@ -116,9 +109,9 @@ TEST_F(LaplaceSpectrum, ASphereHasItsEigenvalues)
 
 TEST_F(LaplaceSpectrum, EigenvaluesScaleWithTheSquaredLength)
 {
-  const auto plain = this->Eigenvalues();
+  const auto plain = Eigenvalues(filter);
   filter->SetInputData(ToPolyData(GeodesicSphere(8, 10.0)));
-  const auto scaled = this->Eigenvalues();
+  const auto scaled = Eigenvalues(filter);
   for (int k = 1; k < 9; ++k)
   {
     EXPECT_NEAR(100 * scaled[k], plain[k], 1e-6);
@@ -157,13 +150,12 @@ TEST_F(LaplaceSpectrum, AModeThatDoesNotExistIsRefused)
 
 TEST_F(LaplaceSpectrum, TheTableListsTheModes)
 {
-  const auto eigenvalues = this->Eigenvalues();
+  const auto eigenvalues = Eigenvalues(filter);
   auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   ASSERT_EQ(table->GetNumberOfRows(), 9);
-  EXPECT_EQ(Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue"))), eigenvalues);
+  EXPECT_EQ(Column(filter, "Eigenvalue"), eigenvalues);
   EXPECT_EQ(table->GetColumnByName("Mode")->GetVariantValue(4).ToInt(), 4);
-  for (const double residual :
-    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual"))))
+  for (const double residual : Column(filter, "Residual"))
   {
     EXPECT_LE(residual, 1e-3); // its square is at most the tolerance
   }
@@ -173,7 +165,7 @@ TEST_F(LaplaceSpectrum, MoreModesThanExistWarnsAndGivesAll)
 {
   filter->SetDepth(2);
   filter->SetNumberOfModes(100000);
-  const auto eigenvalues = this->Eigenvalues();
+  const auto eigenvalues = Eigenvalues(filter);
   EXPECT_TRUE(messages.errors.empty());
   ASSERT_FALSE(messages.warnings.empty());
   EXPECT_NE(messages.warnings[0].find("modes exist"), std::string::npos);
@@ -217,7 +209,7 @@ TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
   for (const double accuracy : { 0.1, 0.003 })
   {
     filter->SetAccuracy(accuracy);
-    const auto eigenvalues = this->Eigenvalues();
+    const auto eigenvalues = Eigenvalues(filter);
     for (int k = 1; k < 9; ++k)
     {
       // the facets' own error is 2e-3
@@ -226,14 +218,11 @@ TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
     EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
     EXPECT_GT(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
     depth = static_cast<int>(FieldValue(filter->GetOutput(), "UsedDepth"));
-    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-    for (const double error :
-      Values(vtkDataArray::SafeDownCast(table->GetColumnByName("EstimatedError"))))
+    for (const double error : Column(filter, "EstimatedError"))
     {
       EXPECT_LE(error, accuracy);
     }
-    const auto isTrusted =
-      Values(vtkDataArray::SafeDownCast(table->GetColumnByName("TrustedEstimate")));
+    const auto isTrusted = Column(filter, "TrustedEstimate");
     ASSERT_EQ(isTrusted.size(), 9u);
     EXPECT_EQ(FieldValue(filter->GetOutput(), "TrustedEstimate"),
       *std::min_element(isTrusted.begin(), isTrusted.end()));
@@ -253,7 +242,7 @@ TEST_F(LaplaceSpectrum, AnAccuracyOutOfReachIsReported)
   basis->SetDepth(4);
   filter->SetBasisConnection(basis->GetOutputPort());
   filter->SetAccuracy(1e-5);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u);
+  EXPECT_EQ(Eigenvalues(filter).size(), 9u);
   ExpectOne(messages.warnings, "not reached");
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 4);
@@ -264,7 +253,7 @@ TEST_F(LaplaceSpectrum, TwoComponentsHaveTwoZeros)
   const TriangleMesh sphere = GeodesicSphere(6);
   filter->SetInputData(
     ToPolyData(Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.3, 1.0, { 3, 0, 0 }))));
-  const auto eigenvalues = this->Eigenvalues();
+  const auto eigenvalues = Eigenvalues(filter);
   EXPECT_NEAR(eigenvalues[1], 0.0, 1e-8);
   EXPECT_GT(eigenvalues[2], 1.0);
 }
@@ -280,20 +269,20 @@ TEST_F(LaplaceSpectrum, ManyComponentsSayHowManyModesAreNeeded)
   filter->SetInputData(ToPolyData(bubbles));
   filter->SetDepth(5);
   filter->SetNumberOfModes(4);
-  EXPECT_EQ(this->Eigenvalues(), std::vector<double>(4, 0.0));
+  EXPECT_EQ(Eigenvalues(filter), std::vector<double>(4, 0.0));
   ExpectOne(messages.warnings, "All 4 modes are constants", "a Number Of Modes above 12.");
   filter->SetNumberOfModes(13);
-  EXPECT_GT(this->Eigenvalues().back(), 1.0);
+  EXPECT_GT(Eigenvalues(filter).back(), 1.0);
 }
 
 TEST_F(LaplaceSpectrum, ModesOfADrumAreZeroOnItsBoundary)
 {
   filter->SetInputData(ToPolyData(FlatRectangle(24, 24)));
   filter->SetNumberOfModes(4);
-  EXPECT_NEAR(this->Eigenvalues()[0], 0.0, 1e-8);
+  EXPECT_NEAR(Eigenvalues(filter)[0], 0.0, 1e-8);
   filter->ZeroBoundaryValuesOn();
   const double exact = 2.0 * 3.14159265358979323846 * 3.14159265358979323846;
-  EXPECT_NEAR(this->Eigenvalues()[0], exact, 0.03 * exact);
+  EXPECT_NEAR(Eigenvalues(filter)[0], exact, 0.03 * exact);
   // Mode 0 is a time step, because it is not constant. It is 2 sin(πx) sin(πy).
   const std::vector<double> first = this->ModeAt(0.0);
   double inside = 0.0;
@@ -369,7 +358,7 @@ TEST_P(LaplaceSpectrumOnEither, NotConvergedWarnsAndKeepsTheResult)
 {
   filter->SetTolerance(1e-16);
   filter->SetMaximumIterations(1);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u);
+  EXPECT_EQ(Eigenvalues(filter).size(), 9u);
   ExpectOne(messages.warnings, "residual");
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
 }
@@ -377,10 +366,10 @@ TEST_P(LaplaceSpectrumOnEither, NotConvergedWarnsAndKeepsTheResult)
 TEST_P(LaplaceSpectrumOnEither, AFieldArrayTellsOfACutGroup)
 {
   filter->SetNumberOfModes(6);
-  EXPECT_EQ(this->Eigenvalues().size(), 6u);
+  EXPECT_EQ(Eigenvalues(filter).size(), 6u);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 1);
   filter->SetNumberOfModes(9);
-  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
+  EXPECT_EQ(Eigenvalues(filter).size(), 9u); // 1 + 3 + 5
   EXPECT_EQ(FieldValue(filter->GetOutput(), "CutsGroup"), 0);
   EXPECT_TRUE(messages.warnings.empty());
 }
@@ -389,13 +378,13 @@ TEST_P(LaplaceSpectrumOnEither, RepeatsBitForBitOnAnyNumberOfThreads)
 {
   filter->ReleaseDataFlagOn(); // each run starts anew
   filter->SetNumberOfThreads(1);
-  const auto eigenvalues = this->Eigenvalues();
+  const auto eigenvalues = Eigenvalues(filter);
   const auto mode = PointValues(filter->GetOutput(), "Mode");
   for (const int threads : { 1, 2 })
   {
     filter->SetNumberOfThreads(threads);
     filter->Modified();
-    EXPECT_EQ(this->Eigenvalues(), eigenvalues);
+    EXPECT_EQ(Eigenvalues(filter), eigenvalues);
     EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), mode);
   }
   EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 3);

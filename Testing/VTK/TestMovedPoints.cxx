@@ -1,7 +1,7 @@
 // Tests that arrays of a shape do not outlive it: normals, clip, basis and modes of a mesh whose
 // points have moved since, and modes of another mesh.
 
-#include "FilterSupport.h"
+#include "Spectra.h"
 
 #include "Grid/TriangleMesh.h"
 
@@ -11,7 +11,6 @@
 #include "vtkSpectralSignatures.h"
 
 #include "vtkPolyDataNormals.h"
-#include "vtkTable.h"
 #include "vtkTransform.h"
 #include "vtkTransformFilter.h"
 
@@ -34,17 +33,6 @@ vtkSmartPointer<vtkPolyData> Scaled(vtkPolyData* data, double x, double y, doubl
   return scale->GetPolyDataOutput();
 }
 
-vtkSmartPointer<vtkPolyData> WithModes(vtkPolyData* data, int modes, int depth = 5)
-{
-  vtkNew<vtkLaplaceSpectrum> spectrum;
-  spectrum->SetInputData(data);
-  spectrum->SetDepth(depth);
-  spectrum->SetNumberOfModes(modes);
-  spectrum->AllModesOn();
-  spectrum->Update();
-  return spectrum->GetOutput();
-}
-
 class MovedPoints : public ::testing::Test
 {
 protected:
@@ -58,8 +46,7 @@ protected:
   {
     signatures->SetInputData(data);
     signatures->Update();
-    auto* table = vtkTable::SafeDownCast(signatures->GetOutputDataObject(1));
-    return Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue")));
+    return Column(signatures, "Eigenvalue");
   }
 
   vtkIdType Solves() { return signatures->GetNumberOfRuns("Solve"); }

@@ -8,7 +8,6 @@
 #include "vtkAppendFilter.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkWeakPointer.h"
 
@@ -103,15 +102,13 @@ TEST_F(OtherDataSets, AVolumeIsItsBoundary)
   spectrum->SetNumberOfModes(4);
   spectrum->Update();
   EXPECT_EQ(spectrum->GetOutput()->GetNumberOfPoints(), 6 * 81); // a face each
-  auto* table = vtkTable::SafeDownCast(spectrum->GetOutputDataObject(1));
-  const auto eigenvalues = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue")));
+  const auto eigenvalues = Column(spectrum, "Eigenvalue");
   vtkNew<vtkLaplaceSpectrum> hats;
   hats->SetInputDataObject(box);
   hats->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
   hats->SetNumberOfModes(4);
   hats->Update();
-  auto* other = vtkTable::SafeDownCast(hats->GetOutputDataObject(1));
-  const auto onHats = Values(vtkDataArray::SafeDownCast(other->GetColumnByName("Eigenvalue")));
+  const auto onHats = Column(hats, "Eigenvalue");
   for (int k = 1; k < 4; ++k)
   {
     EXPECT_NEAR(eigenvalues[k] / onHats[k], 1.0, 0.03);

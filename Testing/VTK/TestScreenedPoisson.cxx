@@ -247,10 +247,8 @@ TEST_F(ScreenedPoisson, EndsByAccuracyAndSaysHowGoodItIs)
   EXPECT_GT(ofSpace, 0.0);
   EXPECT_LE(FieldValue(output, "AlgebraicError"), 0.1 * ofSpace);
   EXPECT_GT(FieldValue(output, "LargestDiscretizationError"), 0.0);
-  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-  const auto left = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("AlgebraicError")));
-  const auto logs =
-    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Log10DiscretizationError")));
+  const auto left = Column(filter, "AlgebraicError");
+  const auto logs = Column(filter, "Log10DiscretizationError");
   EXPECT_LT(left.back(), left.front());
   EXPECT_NEAR(logs.front(), std::log10(ofSpace), 1e-12);
 
@@ -343,12 +341,11 @@ TEST_F(ScreenedPoisson, TheTableHasARowPerIteration)
   {
     ASSERT_TRUE(table->GetColumnByName(name)) << name;
   }
-  const auto energy = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("EnergyResidual")));
-  const auto residual = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual")));
-  const auto logs = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Log10Residual")));
+  const auto energy = Column(filter, "EnergyResidual");
+  const auto residual = Column(filter, "Residual");
+  const auto logs = Column(filter, "Log10Residual");
   EXPECT_LE(energy.back(), filter->GetTolerance());
-  const auto factor =
-    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("ConvergenceFactor")));
+  const auto factor = Column(filter, "ConvergenceFactor");
   ASSERT_GE(energy.size(), 2u);
   EXPECT_EQ(factor.front(), 1.0);
   double product = 1.0;

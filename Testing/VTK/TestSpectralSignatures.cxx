@@ -1,12 +1,11 @@
 // Tests Spectral Signatures: on a sphere against exact series, on modes from Laplace Spectrum, and
 // refusals.
 
-#include "FilterSupport.h"
 #include "Largest.h"
+#include "Spectra.h"
 
 #include "Grid/TriangleMesh.h"
 
-#include "vtkLaplaceSpectrum.h"
 #include "vtkSpectralSignatures.h"
 
 #include "vtkTable.h"
@@ -39,17 +38,6 @@ protected:
   }
 
   /// Returns a mesh that carries its modes.
-  vtkSmartPointer<vtkPolyData> WithModes(int numberOfModes)
-  {
-    vtkNew<vtkLaplaceSpectrum> spectrum;
-    spectrum->SetInputData(ToPolyData(sphere));
-    spectrum->SetDepth(5);
-    spectrum->SetNumberOfModes(numberOfModes);
-    spectrum->AllModesOn();
-    spectrum->Update();
-    return spectrum->GetOutput();
-  }
-
   const TriangleMesh sphere = GeodesicSphere(16);
   vtkNew<Signatures> filter;
   Messages messages;
@@ -83,7 +71,7 @@ TEST_F(SpectralSignaturesFilter, TheHeatKernelOfASphereIsItsSeriesEverywhere)
 TEST_F(SpectralSignaturesFilter, ModesOfTheInputAreTaken)
 {
   const auto own = this->Run("HeatKernelSignature");
-  filter->SetInputData(this->WithModes(25));
+  filter->SetInputData(WithModes(ToPolyData(sphere), 25));
   const vtkIdType runs = filter->GetNumberOfRuns("Solve");
   filter->SetNumberOfModes(7); // not used
   EXPECT_LT(Difference(this->Run("HeatKernelSignature"), own), 1e-6);
@@ -92,7 +80,7 @@ TEST_F(SpectralSignaturesFilter, ModesOfTheInputAreTaken)
 
 TEST_F(SpectralSignaturesFilter, AModeThatIsMissingIsNamed)
 {
-  auto data = this->WithModes(25);
+  auto data = WithModes(ToPolyData(sphere), 25);
   data->GetPointData()->RemoveArray("Mode017");
   filter->SetInputData(data);
   ExpectRefused(filter, "Mode017");
@@ -112,8 +100,7 @@ TEST_F(SpectralSignaturesFilter, ShapeDNADoesNotDependOnSizeAndPlace)
   {
     filter->SetInputData(ToPolyData(mesh));
     filter->Update();
-    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-    return Values(vtkDataArray::SafeDownCast(table->GetColumnByName("ShapeDNA")));
+    return Column(filter, "ShapeDNA");
   };
   const auto plain = fingerprint(sphere);
   const double area = SurfaceArea(sphere);
@@ -190,7 +177,7 @@ TEST_F(SpectralSignaturesFilter, SourcesWithoutPointsWarn)
 
 TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
 {
-  auto data = this->WithModes(25);
+  auto data = WithModes(ToPolyData(sphere), 25);
   filter->SetInputData(data);
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mode007");
   const auto mode = PointValues(data, "Mode007");
@@ -212,7 +199,7 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
 
 TEST_F(SpectralSignaturesFilter, TheTableHasCoefficientsAndWhatRemains)
 {
-  auto data = this->WithModes(25);
+  auto data = WithModes(ToPolyData(sphere), 25);
   const auto seventh = PointValues(data, "Mode007");
   const auto third = PointValues(data, "Mode003");
   for (const double constant : { 0.0, 5.0, 1e9 })
@@ -238,11 +225,8 @@ TEST_F(SpectralSignaturesFilter, TheTableHasCoefficientsAndWhatRemains)
       varying.push_back(3.0 * third[k] - 4.0 * seventh[k]);
     }
     EXPECT_LT(Difference(this->Run("Filtered"), varying), rounding) << constant;
-    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-    const auto column = [&](const char* name)
-    { return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name))); };
-    const auto coefficient = column("Coefficient");
-    const auto remaining = column("RemainingError");
+    const auto coefficient = Column(filter, "Coefficient");
+    const auto remaining = Column(filter, "RemainingError");
     ASSERT_GE(remaining.size(), 25u);
     ASSERT_EQ(coefficient.size(), remaining.size());
     EXPECT_NEAR(std::abs(coefficient[0]), constant * std::sqrt(4 * M_PI), 1e-2 * constant + 1e-6);
