@@ -1,5 +1,6 @@
 // The solver's stages, its units, statistics, observations and warnings. TestMaternField has the
 // covariance, TestKriging the prediction.
+#include "AtDepth.h"
 #include "Dense.h"
 #include "EachOption.h"
 #include "ExpectOne.h"
@@ -22,8 +23,7 @@ namespace
 
 SurfaceOptions AtDepth(int depth, ParameterUnits units = ParameterUnits::UnitArea)
 {
-  SurfaceOptions options = GaussianFieldSolver::SurfaceDefaults();
-  options.space.depth = depth;
+  SurfaceOptions options = AtDepth<GaussianFieldSolver>(depth);
   options.parameterUnits = units;
   return options;
 }

@@ -2,6 +2,7 @@
 // is given.
 #include "Solvers/InterpolationSolver.h"
 
+#include "AtDepth.h"
 #include "Grid/SurfaceEdges.h"
 #include "Largest.h"
 #include "Meshes.h"
@@ -32,8 +33,7 @@ PointValues ValuesAt(const std::vector<Id>& points, const std::function<double(I
 InterpolationSolver::Result Interpolate(
   const TriangleMesh& mesh, const PointValues& known, FunctionKind kind, int depth, int threads = 0)
 {
-  SurfaceOptions surface = InterpolationSolver::SurfaceDefaults();
-  surface.space.depth = depth;
+  SurfaceOptions surface = AtDepth<InterpolationSolver>(depth);
   surface.space.threads = threads;
   surface.choice.kind = kind;
   InterpolationSolver::Input input;

@@ -1,5 +1,6 @@
 // Modes that vanish on the boundary: the eigenvalues of a square, a disk and a hemisphere, their
 // order of convergence, and components without a boundary.
+#include "AtDepth.h"
 #include "ExpectOne.h"
 #include "Largest.h"
 #include "Meshes.h"
@@ -168,8 +169,7 @@ TEST(ZeroBoundaries, AClosedSurfaceIsToldAndUnchanged)
   const auto sphere = std::make_shared<const TriangleMesh>(GeodesicSphere(12));
   SpectrumSolver::Options options;
   options.numberOfModes = 5;
-  SurfaceOptions asked = SpectrumSolver::SurfaceDefaults();
-  asked.space.depth = 4;
+  SurfaceOptions asked = AtDepth<SpectrumSolver>(4);
   const SpectrumSolver::Result free = SpectrumSolver::Solve(sphere, {}, options, asked);
   options.zeroBoundaryValues = true;
   const SpectrumSolver::Result found = SpectrumSolver::Solve(sphere, {}, options, asked);
@@ -184,8 +184,7 @@ TEST(ZeroBoundaries, SignaturesVanishOnTheBoundary)
   SpectrumSolver::Options options;
   options.zeroBoundaryValues = true;
   options.numberOfModes = 12;
-  SurfaceOptions asked = SpectrumSolver::SurfaceDefaults();
-  asked.space.depth = 5;
+  SurfaceOptions asked = AtDepth<SpectrumSolver>(5);
   const SpectrumSolver::Result drum = SpectrumSolver::Solve(mesh, {}, options, asked);
   auto modes = std::make_shared<PointModes>();
   modes->eigenvalues = drum.eigenvalues;
