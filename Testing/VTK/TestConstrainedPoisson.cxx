@@ -172,13 +172,7 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
 {
   for (const int fineness : { 8, 40 }) // edges longer than a cell, and shorter
   {
-    TriangleMesh disc = FlatRectangle(fineness, fineness, 2.0, 2.0);
-    for (Vec3& p : disc.points) // every square ring becomes a round one
-    {
-      const Vec3 q = p - Vec3(1, 1, 0);
-      p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / q.norm())) : q;
-    }
-    const auto data = ToPolyData(Transform(disc, { 1, 2, 3 }, 0.0, 1.5));
+    const auto data = ToPolyData(Transform(Disk(fineness), { 1, 2, 3 }, 0.0, 1.5));
     const auto exact = [](const Vec3& p) { return 4.0 + p[0] * p[0] - p[1] * p[1]; };
     AddPointArray(
       data, "f", 1, [&](const Vec3& p, int) { return p.norm() > 1.5 - 1e-9 ? exact(p) : 100.0; });
@@ -199,12 +193,8 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
 /// holds instead, and the flux is the flux of cosh.
 TEST_P(ConstrainedPoisson, TakesAFluxAcrossTheBoundary)
 {
-  TriangleMesh tube = FlatRectangle(80, 20);
-  for (Vec3& p : tube.points)
-  {
-    const double angle = 2 * M_PI * p[0];
-    p = Vec3(std::cos(angle), std::sin(angle), 2.0 * p[1]);
-  }
+  TriangleMesh tube = Mapped(FlatRectangle(80, 20, 2 * M_PI, 2.0),
+    [](const Vec3& p) { return Vec3(std::cos(p[0]), std::sin(p[0]), p[1]); });
   for (Id row = 0; row <= 20; ++row)
   {
     tube.points[81 * row + 80] = tube.points[81 * row]; // welded

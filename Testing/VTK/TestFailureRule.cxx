@@ -757,12 +757,12 @@ TEST_P(FailureRule, TheInputIsNotChanged)
 /// from others.
 TriangleMesh Potato()
 {
-  TriangleMesh mesh = GeodesicSphere(6);
-  for (Vec3& p : mesh.points)
-  {
-    p = Vec3(p[0] + 0.1 * p[1] * p[2], 0.8 * p[1] + 0.07 * p[0] * p[0], 0.6 * p[2] - 0.05 * p[1]);
-  }
-  return mesh;
+  return Mapped(GeodesicSphere(6),
+    [](const Vec3& p)
+    {
+      return Vec3(
+        p[0] + 0.1 * p[1] * p[2], 0.8 * p[1] + 0.07 * p[0] * p[0], 0.6 * p[2] - 0.05 * p[1]);
+    });
 }
 
 /// The results of a run, in a unit of length in which the surface has not moved.

@@ -262,11 +262,8 @@ TEST(GeodesicDistanceFilter, StartsFromAllOfALine)
 /// On a mesh whose edges grow from 1e-5 to 0.07, a line passes through all points of a row.
 TEST(GeodesicDistanceFilter, StartsFromAllPointsOfALineOnAGradedMesh)
 {
-  TriangleMesh graded = FlatRectangle(40, 40);
-  for (Vec3& point : graded.points)
-  {
-    point[0] = std::pow(point[0], 3.0);
-  }
+  const TriangleMesh graded = Mapped(
+    FlatRectangle(40, 40), [](const Vec3& p) { return Vec3(std::pow(p[0], 3.0), p[1], 0.0); });
   auto filter = MakeFilter(ToPolyData(graded));
   filter->SetInputDataObject(2, LineBetween({ 0, 0.5, 0 }, { 1, 0.5, 0 }));
   const std::vector<double> distance = DistancesOf(filter);

@@ -28,13 +28,8 @@ constexpr int Along = 30;
 /// A tube of radius 1 and length 3. Its seam coincides except for rounding.
 TriangleMesh Tube()
 {
-  TriangleMesh mesh = FlatRectangle(Around, Along);
-  for (Vec3& point : mesh.points)
-  {
-    const double angle = 2 * M_PI * point[0];
-    point = Vec3(std::cos(angle), std::sin(angle), 3.0 * point[1]);
-  }
-  return mesh;
+  return Mapped(FlatRectangle(Around, Along, 2 * M_PI, 3.0),
+    [](const Vec3& p) { return Vec3(std::cos(p[0]), std::sin(p[0]), p[1]); });
 }
 
 Id PointOfTube(int around, int along)
@@ -42,20 +37,10 @@ Id PointOfTube(int around, int along)
   return static_cast<Id>(along) * (Around + 1) + around;
 }
 
-TriangleMesh Rectangle(double left, double width, int nx, int ny)
-{
-  TriangleMesh mesh = FlatRectangle(nx, ny, width, 1.0);
-  for (Vec3& point : mesh.points)
-  {
-    point[0] += left;
-  }
-  return mesh;
-}
-
 /// A unit square whose right half is twice as fine.
 TriangleMesh Halves()
 {
-  return Join(Rectangle(0.0, 0.5, 10, 20), Rectangle(0.5, 0.5, 20, 40));
+  return gridfem::testing::Halves(20, 40);
 }
 
 /// The same surface without hanging nodes.
@@ -205,8 +190,9 @@ TEST(Seams, DistancesCrossThem)
 TEST(Seams, DistancesCrossBlocks)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, ToPolyData(Rectangle(0.0, 0.5, 10, 20)));
-  blocks->SetBlock(1, ToPolyData(Rectangle(0.5 + 1e-15, 0.5, 20, 40)));
+  blocks->SetBlock(0, ToPolyData(FlatRectangle(10, 20, 0.5, 1.0)));
+  blocks->SetBlock(1, ToPolyData(Transform(FlatRectangle(20, 40, 0.5, 1.0), { 1, 0, 0 }, 0.0, 1.0,
+                        { 0.5 + 1e-15, 0, 0 })));
   vtkNew<vtkGeodesicDistance> filter;
   filter->SetInputDataObject(blocks);
   filter->BlocksAsOneOn();

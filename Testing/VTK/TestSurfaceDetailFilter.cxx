@@ -24,12 +24,9 @@ constexpr const char* DetailStages[] = { "Space", "System", "Metric", "Weights",
 /// Makes a sphere with waves on it, normals and a mask of its upper half.
 vtkSmartPointer<vtkPolyData> WavySphere()
 {
-  TriangleMesh mesh = Transform(GeodesicSphere(16), { 1, 2, 3 }, 0.4);
-  for (Vec3& p : mesh.points)
-  {
-    p *= 1.0 + 0.03 * std::sin(12.0 * p[0]) * std::sin(12.0 * p[1]);
-  }
-  auto data = ToPolyData(mesh);
+  auto data = ToPolyData(Mapped(Transform(GeodesicSphere(16), { 1, 2, 3 }, 0.4),
+    [](const Vec3& p) -> Vec3
+    { return p * (1.0 + 0.03 * std::sin(12.0 * p[0]) * std::sin(12.0 * p[1])); }));
   AddPointArray(data, "upper", 1, [](const Vec3& p, int) { return p[2] > 0.0 ? 1.0 : 0.5; });
   AddPointArray(data, "f", 2, Wave);
   data->GetPointData()->SetNormals(

@@ -69,6 +69,8 @@ TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
   }
   for (Id point = 0; point < result.atPoints.rows(); ++point)
   {
+    const auto& points = result.points;
+    EXPECT_EQ(std::count(points.begin(), points.end(), result.nearest[point]), 1);
     EXPECT_NEAR(result.atPoints(point, 0), Angle(point, result.nearest[point]), 2 * Cell);
     EXPECT_LE(result.atPoints(point, 0), result.radius);
   }
@@ -92,7 +94,9 @@ TEST(FarthestPointsSolver, MoreAndFewerPointsAreThoseOfOneShot)
   };
   EXPECT_EQ(solves(Points(3)), 1);
   EXPECT_EQ(solves(Points(3)), 0);
+  const std::vector<Id> three = solver.GetResult().points;
   EXPECT_EQ(solves(Points(5)), 1);
+  EXPECT_TRUE(std::equal(three.begin(), three.end(), solver.GetResult().points.begin()));
   EXPECT_EQ(solves(Points(2)), 1);
   EXPECT_EQ(solves(Points(2)), 0);
   EXPECT_EQ(solves(Points(2, 9)), 1);

@@ -81,13 +81,7 @@ TEST(HeldValues, OfACapAreMet)
 
 TriangleMesh Disc(int fineness)
 {
-  TriangleMesh disc = FlatRectangle(fineness, fineness, 2.0, 2.0);
-  for (Vec3& p : disc.points) // every square ring becomes a round one
-  {
-    const Vec3 q = p - Vec3(1, 1, 0);
-    p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / q.norm())) : q;
-  }
-  return Transform(disc, { 1, 2, 3 }, 0.0, 1.5);
+  return Transform(Disk(fineness), { 1, 2, 3 }, 0.0, 1.5);
 }
 
 /// The largest error of x² - y² from its values on the boundary.
