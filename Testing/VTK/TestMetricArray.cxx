@@ -96,7 +96,7 @@ std::vector<double> Eigenvalues(
   {
     filter->SetInputArrayToProcess(MetricIndex, 0, 0, Cells, "metric");
   }
-  const std::vector<double> values = Eigenvalues(filter);
+  const std::vector<double> values = gridfem::testing::Eigenvalues(filter);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
   return values;
 }

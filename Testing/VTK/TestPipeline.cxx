@@ -78,11 +78,11 @@ protected:
     return values;
   }
 
-  void ExpectRefused(vtkPolyData* mesh, vtkPolyData* basisData, const std::string& reason)
+  void ExpectPairRefused(vtkPolyData* mesh, vtkPolyData* basisData, const std::string& reason)
   {
     solver->SetInputData(0, mesh);
     solver->SetInputData(1, basisData);
-    gridfem::testing::ExpectRefused(solver, reason);
+    ExpectRefused(solver, reason);
   }
 
   vtkSmartPointer<vtkPolyData> input;
@@ -251,7 +251,7 @@ TEST_F(Pipeline, ABasisOfAnotherMeshIsRefused)
   directBasis->Update();
   auto moved = MakeInput();
   moved->GetPoints()->SetPoint(40, 0.5, 0.5, 0.5);
-  this->ExpectRefused(moved, directBasis->GetOutput(), "made from another mesh");
+  this->ExpectPairRefused(moved, directBasis->GetOutput(), "made from another mesh");
 }
 
 TEST_F(Pipeline, ABasisOfALargerMeshIsRefused)
@@ -266,7 +266,7 @@ TEST_F(Pipeline, ABasisOfALargerMeshIsRefused)
   }
   smaller->SetPolys(polys);
   directBasis->Update();
-  this->ExpectRefused(smaller, directBasis->GetOutput(), "made from another mesh");
+  this->ExpectPairRefused(smaller, directBasis->GetOutput(), "made from another mesh");
 }
 
 TEST_F(Pipeline, ABasisOfTheSameCellsInAnotherOrderIsRefused)
@@ -281,13 +281,13 @@ TEST_F(Pipeline, ABasisOfTheSameCellsInAnotherOrderIsRefused)
   }
   reversed->SetPolys(polys);
   directBasis->Update();
-  this->ExpectRefused(reversed, directBasis->GetOutput(), "another order");
+  this->ExpectPairRefused(reversed, directBasis->GetOutput(), "another order");
 }
 
 TEST_F(Pipeline, AMeshThatIsNoBasisIsRefusedOnPortOne)
 {
   clip->Update();
-  this->ExpectRefused(input, clip->GetOutput(), "not the output of a basis filter");
+  this->ExpectPairRefused(input, clip->GetOutput(), "not the output of a basis filter");
 }
 
 TEST_F(Pipeline, DamagedTablesAreRefusedByName)
