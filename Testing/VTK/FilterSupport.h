@@ -188,7 +188,7 @@ inline bool IsEmptyData(vtkDataObject* data)
          data->GetFieldData()->GetNumberOfArrays() == 0;
 }
 
-/// Expects that a run fails with a single error, which contains all the parts, and without output.
+/// Expects a run to fail without output, and with a single error that contains all the parts.
 template<class... Parts>
 void ExpectRefused(vtkAlgorithm* filter, const Parts&... parts)
 {

@@ -308,7 +308,7 @@ TEST_F(LaplaceSpectrum, ModesHaveThePrecisionOfThePoints)
   }
 }
 
-/// The grid's functions, or hats.
+/// Cases for the grid's functions and for hats.
 class LaplaceSpectrumOnEither
   : public LaplaceSpectrum
   , public ::testing::WithParamInterface<int>

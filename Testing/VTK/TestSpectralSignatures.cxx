@@ -42,7 +42,7 @@ protected:
   Messages messages;
 };
 
-/// At the first point; the test of the solver compares all.
+/// Checks the first point. The test of the solver checks all points.
 TEST_F(SpectralSignaturesFilter, TheHeatKernelOfASphereIsItsSeries)
 {
   const auto signature = this->Run("HeatKernelSignature");
