@@ -227,16 +227,6 @@ double CholmodSecondsPerChange(const TriangleMesh& mesh)
   return least;
 }
 
-TriangleMesh MeshOf(const Subject& subject)
-{
-  TriangleMesh mesh = RealMesh(subject.name, subject.file).mesh;
-  for (int k = 0; k < subject.subdivisions; ++k)
-  {
-    mesh = testing::SubdivideInPlane(mesh);
-  }
-  return mesh;
-}
-
 } // namespace
 
 /// Parts: the names of the meshes in the thesis, and "peer" for CHOLMOD beside them.
@@ -252,7 +242,7 @@ int main(int argc, char** argv)
     {
       continue;
     }
-    const TriangleMesh mesh = MeshOf(subject);
+    const TriangleMesh mesh = RealMesh(subject.name, subject.file, subject.subdivisions).mesh;
     const auto times = MeasureInOwnProcess<DetailTimes>(
       [&]
       {

@@ -48,12 +48,7 @@ constexpr Subject Compared{ "distance", "rocker_arm.ply", 1, 7 };
 
 TriangleMesh MeshOf(const Subject& subject)
 {
-  TriangleMesh mesh = RealMesh(subject.name, subject.file).mesh;
-  for (int k = 0; k < subject.subdivisions; ++k)
-  {
-    mesh = testing::SubdivideInPlane(mesh);
-  }
-  return mesh;
+  return RealMesh(subject.name, subject.file, subject.subdivisions).mesh;
 }
 
 template<class Body>

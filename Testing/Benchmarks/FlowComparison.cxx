@@ -259,16 +259,6 @@ Truth TruthOf(const std::shared_ptr<const TriangleMesh>& mesh, std::size_t point
     static_cast<Id>(points) };
 }
 
-TriangleMesh MeshOf(const FlowComparisonOptions& options)
-{
-  TriangleMesh mesh = RealMesh("", options.file).mesh;
-  for (int k = 0; k < options.subdivisions; ++k)
-  {
-    mesh = testing::SubdivideInPlane(mesh);
-  }
-  return mesh;
-}
-
 /// The same after a zero: all flows start at the same points.
 std::vector<double> FromStart(const std::vector<double>& steps)
 {
@@ -307,7 +297,8 @@ void PrintRatios(const FlowComparison& comparison)
 
 FlowComparison CompareFlows(const FlowComparisonOptions& options)
 {
-  const auto mesh = std::make_shared<const TriangleMesh>(MeshOf(options));
+  const auto mesh =
+    std::make_shared<const TriangleMesh>(RealMesh("", options.file, options.subdivisions).mesh);
   FlowComparison result;
   const MemoryReuse reuse;
   const std::size_t points = mesh->points.size();

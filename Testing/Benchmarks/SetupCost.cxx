@@ -12,24 +12,24 @@
 namespace gridfem::benchmarks
 {
 
-NamedMesh RealMesh(const std::string& name, const std::string& file)
+NamedMesh RealMesh(const std::string& name, const std::string& file, int subdivisions)
 {
   const std::string path = testing::RealMesh(file);
   if (path.empty())
   {
     throw std::runtime_error(file + " is not there: GRIDFEM_DATA_DIR names the folder.");
   }
-  return { name, testing::ReadMesh(path) };
-}
-
-NamedMesh RockerArm(int subdivisions)
-{
-  NamedMesh result = RealMesh("rocker arm", "rocker_arm.ply");
+  NamedMesh result = { name, testing::ReadMesh(path) };
   for (int k = 0; k < subdivisions; ++k)
   {
     result.mesh = testing::SubdivideInPlane(result.mesh);
   }
   return result;
+}
+
+NamedMesh RockerArm(int subdivisions)
+{
+  return RealMesh("rocker arm", "rocker_arm.ply", subdivisions);
 }
 
 double SetupCost::Seconds() const

@@ -16,8 +16,9 @@ struct NamedMesh
   TriangleMesh mesh;
 };
 
-/// One of the real meshes. Throws when it is absent.
-NamedMesh RealMesh(const std::string& name, const std::string& file);
+/// One of the real meshes, every triangle cut into four `subdivisions` times. Throws when it is
+/// absent.
+NamedMesh RealMesh(const std::string& name, const std::string& file, int subdivisions = 0);
 
 /// The rocker arm (20,088 triangles), every triangle cut into four `subdivisions` times.
 NamedMesh RockerArm(int subdivisions);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <random>
 
 namespace gridfem::testing
 {
@@ -18,6 +19,23 @@ Eigen::MatrixXd Dense(const SparseMatrix& A)
     }
   }
   return dense;
+}
+
+MultiVector RandomValues(Id rows, Id columns, unsigned seed)
+{
+  std::mt19937 generator(seed);
+  MultiVector result(rows, columns);
+  for (Id i = 0; i < result.size(); ++i)
+  {
+    result.data()[i] = 2.0 * double(generator()) / double(std::mt19937::max()) - 1.0;
+  }
+  return result;
+}
+
+double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+         b.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 MultiVector Product(const Eigen::MatrixXd& A, const MultiVector& x)

@@ -1,5 +1,5 @@
-// Dense matrices, for references that are computed densely. Eigen's dense solvers and products
-// take long to compile, so they are compiled once for all tests.
+// Dense matrices, for references that are computed densely, and random ones. Eigen's dense solvers
+// and products take long to compile, so they are compiled once for all tests.
 #ifndef GridFEM_Testing_Dense_h
 #define GridFEM_Testing_Dense_h
 
@@ -11,6 +11,12 @@ namespace gridfem::testing
 {
 
 Eigen::MatrixXd Dense(const SparseMatrix& A);
+
+/// Returns random numbers in [-1, 1]. The same seed gives the same numbers.
+MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1);
+
+/// Returns the largest difference, relative to the largest entry of the second matrix.
+double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A x
 MultiVector Product(const Eigen::MatrixXd& A, const MultiVector& x);

@@ -202,6 +202,23 @@ TriangleMesh FlatRectangle(int nx, int ny, double width, double height)
   return mesh;
 }
 
+TriangleMesh Disk(int fineness)
+{
+  return Mapped(FlatRectangle(fineness, fineness, 2.0, 2.0),
+    [](const Vec3& p)
+    {
+      const Vec3 q = p - Vec3(1.0, 1.0, 0.0);
+      const double ring = std::max(std::abs(q[0]), std::abs(q[1]));
+      return q.norm() > 0.0 ? Vec3(ring / q.norm() * q) : q;
+    });
+}
+
+TriangleMesh Halves(int left, int right)
+{
+  return Join(FlatRectangle(left / 2, left, 0.5, 1.0),
+    Transform(FlatRectangle(right / 2, right, 0.5, 1.0), Vec3::UnitX(), 0.0, 1.0, { 0.5, 0, 0 }));
+}
+
 TriangleMesh TrefoilTube(int along, int around, double tubeRadius)
 {
   // The knot lies on a torus of radii 2 and 1. The normal of the torus, and its cross product with
@@ -289,6 +306,27 @@ TriangleMesh Pulley(int around, double wallThickness)
     }
   }
   return Revolve(profile, around);
+}
+
+TriangleMesh Mapped(TriangleMesh mesh, const std::function<Vec3(const Vec3&)>& map)
+{
+  std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), map);
+  return mesh;
+}
+
+Vec3 Bend(const Vec3& p)
+{
+  return p + Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(2.0 * p[0]), -0.25 * p[0] * p[1]);
+}
+
+std::vector<Id> EveryPoint(const TriangleMesh& mesh, Id step)
+{
+  std::vector<Id> points;
+  for (Id point = 0; point < static_cast<Id>(mesh.points.size()); point += step)
+  {
+    points.push_back(point);
+  }
+  return points;
 }
 
 TriangleMesh SubdivideInPlane(const TriangleMesh& mesh)

@@ -4,7 +4,9 @@
 
 #include "Grid/TriangleMesh.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace gridfem::testing
 {
@@ -25,6 +27,13 @@ TriangleMesh Box(int n, const Vec3& low = { 0, 0, 0 }, const Vec3& high = { 1, 1
 /// Flat rectangle [0,width] x [0,height] in the plane z = 0, with nx x ny squares of two triangles.
 TriangleMesh FlatRectangle(int nx, int ny, double width = 1.0, double height = 1.0);
 
+/// Unit disk in the plane z = 0: fineness x fineness squares, whose square rings become round ones.
+TriangleMesh Disk(int fineness);
+
+/// Unit square in the plane z = 0 of two halves, which have `left` and `right` squares along y.
+/// Nodes hang between them.
+TriangleMesh Halves(int left, int right);
+
 /// Trefoil tube around the (2,3) knot on the torus of radii 2 and 1. The knot's strands come as
 /// close as 1.663. The default radius leaves a gap of 0.063 between the tube's strands: they nearly
 /// touch.
@@ -42,6 +51,15 @@ TriangleMesh TwoSheets(int n, double gap);
 /// A belt pulley of outer radius 1 and genus 1. It is a surface of revolution around z with a hub,
 /// a thin web and a rim with a V groove. 0 < wallThickness <= 0.2.
 TriangleMesh Pulley(int around, double wallThickness);
+
+/// Moves every point p to map(p).
+TriangleMesh Mapped(TriangleMesh mesh, const std::function<Vec3(const Vec3&)>& map);
+
+/// A smooth map that bends every plane.
+Vec3 Bend(const Vec3& p);
+
+/// Returns the points 0, step, 2 step, ...
+std::vector<Id> EveryPoint(const TriangleMesh& mesh, Id step);
 
 /// Splits every triangle into four at the midpoints of its edges. A shared midpoint is a single
 /// point.

@@ -13,7 +13,7 @@ namespace gridfem::testing
 /// @param built  the same hierarchy, built in double precision
 inline void ExpectCopyInDoublePrecision(const Multigrid& mixed, const Multigrid& built)
 {
-  const MultiVector b = RandomVectors(built.Matrix().rows, 1);
+  const MultiVector b = RandomValues(built.Matrix().rows, 1);
   const Multigrid copy = mixed.InDoublePrecision();
   MultiVector expected;
   MultiVector copied;

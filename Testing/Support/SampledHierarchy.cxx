@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 
 namespace gridfem::testing
 {
@@ -240,23 +239,6 @@ std::vector<MultigridLevel> SampledHierarchy(
     fine = std::move(level);
   }
   return hierarchy;
-}
-
-MultiVector RandomVectors(Id rows, Id columns, std::uint32_t seed)
-{
-  std::mt19937 generator(seed);
-  MultiVector x(rows, columns);
-  for (Id i = 0; i < x.size(); ++i)
-  {
-    x.data()[i] = 2.0 * (generator() / 4294967295.0) - 1.0;
-  }
-  return x;
-}
-
-double RelativeDifference(const MultiVector& a, const MultiVector& b)
-{
-  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
-         b.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 SparseMatrix Sparse(const Eigen::MatrixXd& A)

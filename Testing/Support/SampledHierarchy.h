@@ -6,8 +6,6 @@
 #include "Dense.h"
 #include "Multigrid/Multigrid.h"
 
-#include <cstdint>
-
 namespace gridfem::testing
 {
 
@@ -34,12 +32,6 @@ std::vector<Sample> TiltedPlane(int depth, double height, double slope);
 /// samples.
 std::vector<MultigridLevel> SampledHierarchy(
   const std::vector<Sample>& samples, int depth, int coarsestDepth, double mass, double stiffness);
-
-/// Returns random entries in [-1, 1]. The same seed gives the same entries.
-MultiVector RandomVectors(Id rows, Id columns, std::uint32_t seed = 1);
-
-/// Returns the largest difference of two blocks, relative to the largest entry of the second.
-double RelativeDifference(const MultiVector& a, const MultiVector& b);
 
 /// Returns all nonzero entries of a dense matrix.
 SparseMatrix Sparse(const Eigen::MatrixXd& A);

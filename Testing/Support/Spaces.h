@@ -10,7 +10,6 @@
 #include "Meshes.h"
 
 #include <ostream>
-#include <random>
 #include <string>
 
 namespace gridfem::testing
@@ -120,25 +119,6 @@ inline MultiVector PointCoordinates(const TriangleMesh& mesh)
     SetRow(result, static_cast<Id>(i), mesh.points[i]);
   }
   return result;
-}
-
-/// Returns random numbers in [-1, 1], the same in every run.
-inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
-{
-  std::mt19937 generator(seed);
-  MultiVector result(rows, columns);
-  for (Id i = 0; i < rows * columns; ++i)
-  {
-    result.data()[i] = 2.0 * double(generator()) / double(std::mt19937::max()) - 1.0;
-  }
-  return result;
-}
-
-/// Returns the largest difference, relative to the largest entry of the second matrix.
-inline double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
-{
-  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
-         b.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 } // namespace gridfem::testing

@@ -2,6 +2,7 @@
 #ifndef GridFEM_Testing_FilterSupport_h
 #define GridFEM_Testing_FilterSupport_h
 
+#include "ExpectOne.h"
 #include "Largest.h"
 #include "Meshes.h"
 
@@ -17,6 +18,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkTable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +94,7 @@ inline bool PassesOn(vtkAlgorithm* filter, const char* result)
 class Messages
 {
 public:
-  explicit Messages(vtkAlgorithm* algorithm)
+  explicit Messages(vtkAlgorithm* algorithm) : algorithm_(algorithm)
   {
     errorCommand_->SetClientData(&errors);
     errorCommand_->SetCallback(&Messages::Collect);
@@ -104,6 +106,12 @@ public:
     algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, quiet_);
   }
 
+  ~Messages()
+  {
+    algorithm_->RemoveObserver(errorCommand_);
+    algorithm_->RemoveObserver(warningCommand_);
+  }
+
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
 
@@ -113,6 +121,7 @@ private:
     static_cast<std::vector<std::string>*>(list)->emplace_back(static_cast<const char*>(text));
   }
 
+  vtkSmartPointer<vtkAlgorithm> algorithm_;
   vtkNew<vtkCallbackCommand> errorCommand_;
   vtkNew<vtkCallbackCommand> warningCommand_;
   vtkNew<vtkCallbackCommand> quiet_;
@@ -143,6 +152,13 @@ inline double FieldValue(vtkDataObject* data, const char* name)
   return array ? array->GetComponent(0, 0) : std::nan("");
 }
 
+/// Returns a column of a filter's table.
+inline std::vector<double> Column(vtkAlgorithm* filter, const char* name)
+{
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name)));
+}
+
 inline bool AllFinite(const std::vector<double>& values)
 {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -170,6 +186,19 @@ inline bool IsEmptyData(vtkDataObject* data)
          data->GetNumberOfElements(vtkDataObject::CELL) <= 0 &&
          data->GetNumberOfElements(vtkDataObject::ROW) <= 0 &&
          data->GetFieldData()->GetNumberOfArrays() == 0;
+}
+
+/// Expects a run to fail without output, and with a single error that contains all the parts.
+template<class... Parts>
+void ExpectRefused(vtkAlgorithm* filter, const Parts&... parts)
+{
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ExpectOne(messages.errors, parts...);
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(port))) << "port " << port;
+  }
 }
 
 } // namespace gridfem::testing

@@ -4,6 +4,7 @@
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
 #include "Largest.h"
+#include "Selections.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkGeodesicDistance.h"
@@ -15,7 +16,6 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkCompositeDataIterator.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkIntArray.h"
@@ -23,8 +23,6 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkSelection.h"
-#include "vtkSelectionNode.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -94,22 +92,6 @@ std::vector<vtkPolyData*> LeavesOf(vtkDataObject* data)
     leaves.push_back(vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject()));
   }
   return leaves;
-}
-
-vtkSmartPointer<vtkSelection> SelectPoints(const std::vector<vtkIdType>& points)
-{
-  vtkNew<vtkSelectionNode> node;
-  node->SetFieldType(vtkSelectionNode::POINT);
-  node->SetContentType(vtkSelectionNode::INDICES);
-  vtkNew<vtkIdTypeArray> ids;
-  for (const vtkIdType point : points)
-  {
-    ids->InsertNextValue(point);
-  }
-  node->SetSelectionList(ids);
-  auto selection = vtkSmartPointer<vtkSelection>::New();
-  selection->AddNode(node);
-  return selection;
 }
 
 class BlocksAsOne : public ::testing::Test
@@ -491,8 +473,7 @@ TEST_F(BlocksAsOne, OneWithoutTheArrayIsPassedOn)
   filter->SetInputDataObject(this->Nested());
   filter->Update();
   EXPECT_TRUE(messages.errors.empty());
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("no array 'f'"), std::string::npos) << messages.warnings[0];
+  ExpectOne(messages.warnings, "no array 'f'");
   const auto leaves = LeavesOf(filter->GetOutputDataObject(0));
   ASSERT_EQ(leaves.size(), 4u);
   EXPECT_TRUE(leaves[0]->GetPointData()->HasArray("Solution"));
@@ -543,8 +524,7 @@ TEST_F(BlocksAsOne, AnEmptyInputAndAVolumeInBlocks)
   volumes->SetBlock(1, parts[0]);
   filter->SetInputDataObject(volumes);
   filter->Update();
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("volume"), std::string::npos) << messages.errors[0];
+  ExpectOne(messages.errors, "volume");
 }
 
 TEST_F(BlocksAsOne, OffEveryBlockIsASurface)

@@ -254,12 +254,11 @@ protected:
     return filter->GetExecutive()->Update();
   }
 
-  void ExpectRefused(vtkPolyData* input, const std::string& reason)
+  template<class... Parts>
+  void ExpectRefused(vtkPolyData* input, const Parts&... reason)
   {
-    EXPECT_EQ(this->Run(input), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
-    this->ExpectEmptyOutputs();
+    filter->SetInputDataObject(0, input);
+    gridfem::testing::ExpectRefused(filter, reason...);
   }
 
   void ExpectEmptyOutputs()
@@ -383,7 +382,6 @@ TEST_P(FailureRule, CellsThatDoNotFitTheirCornersAreRefused)
       vtkNew<vtkPolyData> damaged;
       damaged->ShallowCopy(data);
       areStrips ? damaged->SetStrips(cells) : damaged->SetPolys(cells);
-      messages.errors.clear();
       this->ExpectRefused(
         damaged, areStrips ? "triangle strips of the input" : "polygons of the input");
     }
@@ -417,7 +415,6 @@ TEST_P(FailureRule, CoordinatesOutsideTheRangeOfNumbersAreRefused)
 {
   for (const double scale : { 1e300, 1e-300 })
   {
-    messages.errors.clear();
     this->ExpectRefused(
       Surface({ { { 0, 0, 0 }, { scale, 0, 0 }, { 0, scale, 0 } }, { { 0, 1, 2 } } }),
       "Scale it first");
@@ -492,8 +489,7 @@ TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
     this->ExpectComputed(Surface(GeodesicSphere(8))); // hats are over a grid that is as coarse
     return;
   }
-  this->ExpectRefused(Surface(GeodesicSphere(8)), "Depth 14 (about");
-  EXPECT_NE(messages.errors[0].find("GB"), std::string::npos);
+  this->ExpectRefused(Surface(GeodesicSphere(8)), "Depth 14 (about", "GB");
 }
 
 TEST_P(FailureRule, AnUnknownQuadratureDegreeIsRefused)
@@ -761,12 +757,12 @@ TEST_P(FailureRule, TheInputIsNotChanged)
 /// from others.
 TriangleMesh Potato()
 {
-  TriangleMesh mesh = GeodesicSphere(6);
-  for (Vec3& p : mesh.points)
-  {
-    p = Vec3(p[0] + 0.1 * p[1] * p[2], 0.8 * p[1] + 0.07 * p[0] * p[0], 0.6 * p[2] - 0.05 * p[1]);
-  }
-  return mesh;
+  return Mapped(GeodesicSphere(6),
+    [](const Vec3& p)
+    {
+      return Vec3(
+        p[0] + 0.1 * p[1] * p[2], 0.8 * p[1] + 0.07 * p[0] * p[0], 0.6 * p[2] - 0.05 * p[1]);
+    });
 }
 
 /// The results of a run, in a unit of length in which the surface has not moved.

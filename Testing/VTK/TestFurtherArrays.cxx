@@ -179,12 +179,7 @@ TEST(FurtherArrays, OfAnotherKindAreRefused)
 {
   auto filter = Make<vtkHeatDiffusion>(MakeSurface(true), "small");
   filter->AddFurtherArray("on cells");
-  Messages messages(filter);
-  filter->Update();
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("As point data, the Further Array 'on cells' does not exist."),
-    std::string::npos)
-    << messages.errors[0];
+  ExpectRefused(filter, "As point data, the Further Array 'on cells' does not exist.");
 }
 
 TEST(FurtherArrays, KnownAtOtherPointsAreRefused)
@@ -207,14 +202,8 @@ TEST(FurtherArrays, KnownAtOtherPointsAreRefused)
       interpolation->AddFurtherArray("large");
       filter = interpolation;
     }
-    Messages messages(filter);
-    filter->Update();
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(
-      messages.errors[0].find("Some of the arrays 'small', 'large' are NaN at point 30 and some "
-                              "are not."),
-      std::string::npos)
-      << messages.errors[0];
+    ExpectRefused(
+      filter, "Some of the arrays 'small', 'large' are NaN at point 30 and some are not.");
   }
 }
 
@@ -222,11 +211,7 @@ TEST(FurtherArrays, NeedAFirstOne)
 {
   auto filter = Make<vtkHeatDiffusion>(MakeSurface(true), "");
   filter->AddFurtherArray("large");
-  Messages messages(filter);
-  filter->Update();
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Choose the Array, too."), std::string::npos)
-    << messages.errors[0];
+  ExpectRefused(filter, "Choose the Array, too.");
 }
 
 TEST(FurtherArrays, RunStagesAgainOnlyIfTheyChange)

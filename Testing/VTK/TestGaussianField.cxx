@@ -103,17 +103,11 @@ TEST(GaussianField, RefusesNoRangeAndWarnsOfAShortOne)
 {
   auto filter = MakeFilter(1);
   filter->SetRange(0.0);
-  {
-    const Messages messages(filter);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find("Range is 0"), std::string::npos);
-  }
+  ExpectRefused(filter, "Range is 0");
   filter->SetRange(0.01);
   const Messages messages(filter);
   filter->Update();
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("Range is only"), std::string::npos);
+  ExpectOne(messages.warnings, "Range is only");
 }
 
 TEST(GaussianField, PredictsFromObservations)
@@ -234,10 +228,7 @@ TEST(GaussianField, TakesObservationsById)
   EXPECT_GT(std::abs(ArrayOf(filter, "Prediction")[7] - byId[7]), 1e-3);
 
   filter->AddObservation(100000, 1.0);
-  const Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("there is no point 100000"), std::string::npos);
+  ExpectRefused(filter, "there is no point 100000");
 }
 
 /// Each point of a soup of triangles has several copies. Its value is still one observation.
@@ -277,14 +268,10 @@ TEST(GaussianField, RefusesObservationsThatItCannotUse)
   vtkPolyData* surface = InputOf(filter);
   AddPointArray(surface, "none", 1, [](const Vec3&, int) { return std::nan(""); });
   AddPointArray(surface, "two", 2, &Wave);
-  const Messages messages(filter);
   for (const auto& [name, reason] :
     { std::pair("none", "is known"), std::pair("two", "2 components") })
   {
     filter->SetInputArrayToProcess(0, 0, 0, Points, name);
-    const std::size_t before = messages.errors.size();
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), before + 1);
-    EXPECT_NE(messages.errors.back().find(reason), std::string::npos) << messages.errors.back();
+    ExpectRefused(filter, reason);
   }
 }

@@ -109,14 +109,7 @@ TEST_P(HostileProperties, NaNIsRefusedByName)
     filter->SetDepth(3);
     filter->SetFunctionSpace(this->GetParam());
     filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
-    const Messages messages(filter);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << hostile.name;
-    ASSERT_EQ(messages.errors.size(), 1u) << hostile.name;
-    EXPECT_NE(messages.errors[0].find(hostile.name), std::string::npos) << messages.errors[0];
-    for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
-    {
-      EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(port))) << hostile.name;
-    }
+    ExpectRefused(filter, hostile.name);
   }
 }
 
@@ -130,10 +123,7 @@ TEST_P(HostileProperties, InfinityIsRefusedByName)
       filter->SetDepth(3);
       filter->SetFunctionSpace(this->GetParam());
       filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
-      const Messages messages(filter);
-      EXPECT_EQ(filter->GetExecutive()->Update(), 0) << hostile.name;
-      ASSERT_EQ(messages.errors.size(), 1u) << hostile.name;
-      EXPECT_NE(messages.errors[0].find(hostile.name), std::string::npos) << messages.errors[0];
+      ExpectRefused(filter, hostile.name);
     }
   }
 }
@@ -155,10 +145,7 @@ TEST_P(HostileProperties, WhatIsBelowTheLeastIsRefusedAndNotClamped)
     filter->SetDepth(3);
     filter->SetFunctionSpace(this->GetParam());
     filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
-    const Messages messages(filter);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << message;
-    ASSERT_EQ(messages.errors.size(), 1u) << message;
-    EXPECT_NE(messages.errors[0].find(message), std::string::npos) << messages.errors[0];
+    ExpectRefused(filter, message);
   }
 }
 
@@ -171,21 +158,17 @@ TEST(HostileProperties, AValueInRangeIsUsableAgain)
   filter->Update();
   const std::vector<double> expected = PointValues(filter->GetOutput(), "Diffused");
   ASSERT_FALSE(expected.empty());
-  const Messages messages(filter);
-  std::size_t count = 0;
   for (const auto& [depth, nearest] : { std::pair(15, 14), { -1, 0 }, { VTK_INT_MAX, 14 } })
   {
     filter->SetDepth(depth);
     EXPECT_EQ(filter->GetDepth(), nearest);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << depth;
-    ASSERT_EQ(messages.errors.size(), ++count) << depth;
-    EXPECT_NE(messages.errors.back().find("Depth is "), std::string::npos);
-    EXPECT_NE(messages.errors.back().find("from 0 to 14"), std::string::npos);
+    ExpectRefused(filter, "Depth is ", "from 0 to 14");
+    const Messages messages(filter);
     filter->SetDepth(nearest); // only asks for another run
     filter->SetDepth(4);
     filter->Update();
     EXPECT_EQ(PointValues(filter->GetOutput(), "Diffused"), expected);
-    EXPECT_EQ(messages.errors.size(), count);
+    EXPECT_TRUE(messages.errors.empty());
   }
 }
 

@@ -10,7 +10,6 @@
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkTable.h"
 
 #include <gtest/gtest.h>
 
@@ -45,12 +44,6 @@ protected:
     return Values(filter->GetOutput()->GetPoints()->GetData());
   }
 
-  std::vector<double> Column(const char* name)
-  {
-    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-    return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name)));
-  }
-
   vtkNew<Flow> filter;
   Messages messages;
 };
@@ -60,7 +53,7 @@ TEST_P(MeanCurvatureFlowFilter, AFlatSquareInAPlaneOfTheGridTakesFewIterations)
   filter->SetInputData(ToPolyData(FlatRectangle(20, 20)));
   filter->Update();
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
-  for (const double iterations : this->Column("Iterations"))
+  for (const double iterations : Column(filter, "Iterations"))
   {
     EXPECT_LE(iterations, 5);
   }
@@ -121,10 +114,10 @@ TEST_P(MeanCurvatureFlowFilter, MoreStepsContinueAndFewerComputeNothing)
   filter->SetNumberOfSteps(8);
   this->PointsAt(8);
   EXPECT_EQ(filter->GetNumberOfRuns("Step"), 8);
-  EXPECT_EQ(this->Column("Step").size(), 9u);
+  EXPECT_EQ(Column(filter, "Step").size(), 9u);
   filter->SetNumberOfSteps(3);
   EXPECT_EQ(this->PointsAt(8), third);
-  EXPECT_EQ(this->Column("Step").size(), 4u);
+  EXPECT_EQ(Column(filter, "Step").size(), 4u);
   EXPECT_EQ(filter->GetNumberOfRuns("Step"), 8);
   filter->SetTimeStep(2e-3);
   EXPECT_NE(this->PointsAt(3), third);
@@ -135,10 +128,10 @@ TEST_P(MeanCurvatureFlowFilter, MoreStepsContinueAndFewerComputeNothing)
 TEST_P(MeanCurvatureFlowFilter, TheTableTellsOfEveryStep)
 {
   filter->Update();
-  EXPECT_EQ(this->Column("Step"), (std::vector<double>{ 0, 1, 2, 3, 4, 5 }));
-  const auto area = this->Column("Area");
+  EXPECT_EQ(Column(filter, "Step"), (std::vector<double>{ 0, 1, 2, 3, 4, 5 }));
+  const auto area = Column(filter, "Area");
   EXPECT_NEAR(area[0], SurfaceArea(Torus(24, 12, 1.0, 0.4)), 1e-9);
-  const auto time = this->Column("Time");
+  const auto time = Column(filter, "Time");
   for (int k = 1; k < 6; ++k)
   {
     EXPECT_LT(area[k], area[k - 1]);
@@ -148,7 +141,7 @@ TEST_P(MeanCurvatureFlowFilter, TheTableTellsOfEveryStep)
   for (const char* name :
     { "Volume", "Sphericity", "QuasiConformalError", "Iterations", "LockedSamples", "Seconds" })
   {
-    EXPECT_TRUE(AllFinite(this->Column(name)) && this->Column(name).size() == 6u) << name;
+    EXPECT_TRUE(AllFinite(Column(filter, name)) && Column(filter, name).size() == 6u) << name;
   }
 }
 
@@ -211,27 +204,24 @@ TEST_P(MeanCurvatureFlowFilter, ClippingAgainIsNearTracking)
 {
   filter->SetInputData(ToPolyData(GeodesicSphere(16)));
   filter->Update();
-  const auto tracked = this->Column("Area");
+  const auto tracked = Column(filter, "Area");
   const auto moved = Values(filter->GetOutput()->GetPoints()->GetData());
   filter->TrackMetricOff();
   filter->Update();
-  EXPECT_NEAR(this->Column("Area")[5], tracked[5], 0.01 * tracked[5]);
+  EXPECT_NEAR(Column(filter, "Area")[5], tracked[5], 0.01 * tracked[5]);
   EXPECT_LT(Difference(Values(filter->GetOutput()->GetPoints()->GetData()), moved), 0.02);
   filter->ConformalizedOn();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Track Metric"), std::string::npos);
+  ExpectRefused(filter, "Track Metric");
 }
 
 TEST_P(MeanCurvatureFlowFilter, TheConformalisedFlowWarnsWhereNoSphereComesOut)
 {
   filter->ConformalizedOn();
   filter->Update();
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("sphere"), std::string::npos);
+  ExpectOne(messages.warnings, "sphere");
   this->PointsAt(2);
   EXPECT_EQ(messages.warnings.size(), 1u); // not at every time step
-  const auto area = this->Column("Area");
+  const auto area = Column(filter, "Area");
   EXPECT_NEAR(area[5], area[0], 1e-9 * area[0]); // the default of Rescale
   filter->SetInputData(ToPolyData(GeodesicSphere(8)));
   filter->Update();
@@ -244,13 +234,12 @@ TEST_P(MeanCurvatureFlowFilter, AVanishedSurfaceEndsTheFlowWithAWarning)
   filter->SetTimeStep(0.02);
   filter->SetNumberOfSteps(60);
   filter->Update();
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("ends after"), std::string::npos);
+  ExpectOne(messages.warnings, "ends after");
   EXPECT_TRUE(messages.errors.empty());
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(AllFinite(Values(filter->GetOutput()->GetPoints()->GetData())));
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "Step"), double(this->Column("Step").size() - 1));
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Step"), double(Column(filter, "Step").size() - 1));
   for (const char* name : { "ConformalFactor", "QuasiConformalError", "Displacement" })
   {
     EXPECT_TRUE(AllFinite(PointValues(filter->GetOutput(), name))) << name;
@@ -286,12 +275,8 @@ TEST_P(MeanCurvatureFlowFilter, AnAbortKeepsTheStepsSoFar)
 
 TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
 {
-  TriangleMesh mesh = FlatRectangle(16, 16);
-  for (Vec3& p : mesh.points)
-  {
-    p[2] = 0.3 * std::sin(5.0 * p[0]) * std::cos(4.0 * p[1]);
-  }
-  filter->SetInputData(ToPolyData(mesh));
+  filter->SetInputData(ToPolyData(Mapped(FlatRectangle(16, 16), [](const Vec3& p)
+    { return Vec3(p[0], p[1], 0.3 * std::sin(5.0 * p[0]) * std::cos(4.0 * p[1])); })));
   for (const bool track : { true, false })
   {
     filter->SetTrackMetric(track);
@@ -308,7 +293,7 @@ TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
       }
       EXPECT_EQ(moved == 0.0, isFixed) << k;
     }
-    const std::vector<double> area = this->Column("Area");
+    const std::vector<double> area = Column(filter, "Area");
     EXPECT_TRUE(std::is_sorted(area.rbegin(), area.rend()));
     filter->FixedBoundaryOff();
     EXPECT_NE(this->PointsAt(5), end);
@@ -318,9 +303,7 @@ TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
   filter->FixedBoundaryOn();
   filter->TrackMetricOn();
   filter->ConformalizedOn();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Fixed Boundary"), std::string::npos);
+  ExpectRefused(filter, "Fixed Boundary");
 }
 
 TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
@@ -328,22 +311,18 @@ TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
   for (const double step : { 0.0, -1.0, std::nan(""), double(HUGE_VAL) })
   {
     filter->SetTimeStep(step);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find("Time Step"), std::string::npos);
-    messages.errors.clear();
+    ExpectRefused(filter, "Time Step");
   }
   filter->SetTimeStep(1e-3);
   filter->SetInputData(ToPolyData(FlatRectangle(6, 6)));
   filter->SetRescale(Flow::ConstantVolume);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+  ExpectRefused(filter);
+  messages.errors.clear();
   filter->SetInputData(vtkNew<vtkPolyData>());
   EXPECT_EQ(filter->GetExecutive()->Update(), 1);
   EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(1)));
-  EXPECT_EQ(messages.errors.size(), 1u);
+  EXPECT_TRUE(messages.errors.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, MeanCurvatureFlowFilter,

@@ -78,14 +78,11 @@ protected:
     return values;
   }
 
-  void ExpectRefused(vtkPolyData* mesh, vtkPolyData* basisData, const std::string& reason)
+  void ExpectPairRefused(vtkPolyData* mesh, vtkPolyData* basisData, const std::string& reason)
   {
     solver->SetInputData(0, mesh);
     solver->SetInputData(1, basisData);
-    EXPECT_EQ(solver->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
-    EXPECT_TRUE(IsEmptyData(solver->GetOutput()));
+    ExpectRefused(solver, reason);
   }
 
   vtkSmartPointer<vtkPolyData> input;
@@ -254,7 +251,7 @@ TEST_F(Pipeline, ABasisOfAnotherMeshIsRefused)
   directBasis->Update();
   auto moved = MakeInput();
   moved->GetPoints()->SetPoint(40, 0.5, 0.5, 0.5);
-  this->ExpectRefused(moved, directBasis->GetOutput(), "made from another mesh");
+  this->ExpectPairRefused(moved, directBasis->GetOutput(), "made from another mesh");
 }
 
 TEST_F(Pipeline, ABasisOfALargerMeshIsRefused)
@@ -269,7 +266,7 @@ TEST_F(Pipeline, ABasisOfALargerMeshIsRefused)
   }
   smaller->SetPolys(polys);
   directBasis->Update();
-  this->ExpectRefused(smaller, directBasis->GetOutput(), "made from another mesh");
+  this->ExpectPairRefused(smaller, directBasis->GetOutput(), "made from another mesh");
 }
 
 TEST_F(Pipeline, ABasisOfTheSameCellsInAnotherOrderIsRefused)
@@ -284,13 +281,13 @@ TEST_F(Pipeline, ABasisOfTheSameCellsInAnotherOrderIsRefused)
   }
   reversed->SetPolys(polys);
   directBasis->Update();
-  this->ExpectRefused(reversed, directBasis->GetOutput(), "another order");
+  this->ExpectPairRefused(reversed, directBasis->GetOutput(), "another order");
 }
 
 TEST_F(Pipeline, AMeshThatIsNoBasisIsRefusedOnPortOne)
 {
   clip->Update();
-  this->ExpectRefused(input, clip->GetOutput(), "not the output of a basis filter");
+  this->ExpectPairRefused(input, clip->GetOutput(), "not the output of a basis filter");
 }
 
 TEST_F(Pipeline, DamagedTablesAreRefusedByName)
@@ -323,12 +320,9 @@ TEST_F(Pipeline, DamagedTablesAreRefusedByName)
     array->SetName(damage.array);
     array->SetComponent(0, 0, damage.value);
     place->AddArray(array);
-    messages.errors.clear();
     solver->SetInputData(0, damaged);
-    EXPECT_EQ(solver->GetExecutive()->Update(), 0) << damage.array << " " << damage.value;
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find(damage.array), std::string::npos) << messages.errors[0];
-    EXPECT_TRUE(IsEmptyData(solver->GetOutput()));
+    SCOPED_TRACE(damage.value);
+    ExpectRefused(solver, damage.array);
   }
 }
 
@@ -342,9 +336,7 @@ TEST_F(Pipeline, AMovedBasisIsRefused)
   move->SetInputData(directBasis->GetOutput());
   move->Update();
   solver->SetInputData(0, move->GetOutput());
-  EXPECT_EQ(solver->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("moved"), std::string::npos) << messages.errors[0];
+  ExpectRefused(solver, "moved");
 }
 
 TEST_F(Pipeline, DroppedCellsLeaveAUsableBasis)

@@ -1,14 +1,13 @@
 // Tests surfaces with seams that coincide except for rounding, and with hanging nodes: the exact
 // answers, points that stay, chains of filters, and no repeated steps.
 
-#include "FilterSupport.h"
+#include "Spectra.h"
 
 #include "Grid/OpenEdges.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkGeodesicDistance.h"
-#include "vtkLaplaceSpectrum.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSurfaceDetail.h"
@@ -29,13 +28,8 @@ constexpr int Along = 30;
 /// A tube of radius 1 and length 3. Its seam coincides except for rounding.
 TriangleMesh Tube()
 {
-  TriangleMesh mesh = FlatRectangle(Around, Along);
-  for (Vec3& point : mesh.points)
-  {
-    const double angle = 2 * M_PI * point[0];
-    point = Vec3(std::cos(angle), std::sin(angle), 3.0 * point[1]);
-  }
-  return mesh;
+  return Mapped(FlatRectangle(Around, Along, 2 * M_PI, 3.0),
+    [](const Vec3& p) { return Vec3(std::cos(p[0]), std::sin(p[0]), p[1]); });
 }
 
 Id PointOfTube(int around, int along)
@@ -43,20 +37,10 @@ Id PointOfTube(int around, int along)
   return static_cast<Id>(along) * (Around + 1) + around;
 }
 
-TriangleMesh Rectangle(double left, double width, int nx, int ny)
-{
-  TriangleMesh mesh = FlatRectangle(nx, ny, width, 1.0);
-  for (Vec3& point : mesh.points)
-  {
-    point[0] += left;
-  }
-  return mesh;
-}
-
 /// A unit square whose right half is twice as fine.
 TriangleMesh Halves()
 {
-  return Join(Rectangle(0.0, 0.5, 10, 20), Rectangle(0.5, 0.5, 20, 40));
+  return gridfem::testing::Halves(20, 40);
 }
 
 /// The same surface without hanging nodes.
@@ -64,6 +48,10 @@ TriangleMesh Square()
 {
   return FlatRectangle(40, 40);
 }
+
+/// Spaces, and whether the grid's functions know which parts are connected.
+constexpr std::pair<int, bool> Spaces[] = { { Algorithm::Grid, true }, { Algorithm::Grid, false },
+  { Algorithm::HatFunctions, true } };
 
 vtkSmartPointer<vtkLaplaceSpectrum> SpectrumOf(vtkPolyData* input, int modes)
 {
@@ -74,20 +62,15 @@ vtkSmartPointer<vtkLaplaceSpectrum> SpectrumOf(vtkPolyData* input, int modes)
   return filter;
 }
 
-std::vector<double> Eigenvalues(vtkLaplaceSpectrum* filter)
-{
-  filter->Update();
-  return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
-}
-
-/// Trilinear functions of depth 6, and hats of these meshes, have errors below two percent.
+/// Expects eigenvalues with a relative error that trilinear functions of depth 6, and hats of this
+/// mesh, stay below.
 void ExpectNear(
-  const std::vector<double>& found, const std::vector<double>& exact, const std::string& what)
+  const std::vector<double>& found, const std::vector<double>& exact, double relativeError)
 {
-  ASSERT_GE(found.size(), exact.size()) << what;
+  ASSERT_GE(found.size(), exact.size());
   for (std::size_t k = 0; k < exact.size(); ++k)
   {
-    EXPECT_NEAR(found[k], exact[k], 0.02 * std::max(1.0, exact[k])) << what << ", mode " << k;
+    EXPECT_NEAR(found[k], exact[k], relativeError * std::max(1.0, exact[k])) << "mode " << k;
   }
 }
 
@@ -118,18 +101,19 @@ TriangleMesh MeshOf(vtkPolyData* data)
 TEST(Seams, ATubeHasTheSpectrumOfACylinder)
 {
   const double first = std::pow(M_PI / 3.0, 2);
-  const std::vector<double> exact = { 0, 1, 1, first, 1 + first, 1 + first };
+  const std::vector<double> exact = { 0, 1, 1, first, 1 + first, 1 + first, 4, 4 };
   for (const int precision : { VTK_DOUBLE, VTK_FLOAT })
   {
     const auto input = ToPolyData(Tube(), precision);
-    for (const int space : { Algorithm::Grid, Algorithm::HatFunctions })
+    for (const auto& [space, isAware] : Spaces)
     {
-      const auto filter = SpectrumOf(input, 6);
+      const auto filter = SpectrumOf(input, 8);
       filter->SetFunctionSpace(space);
-      ExpectNear(Eigenvalues(filter), exact, "tube");
+      filter->SetConnectivityAware(isAware);
+      ExpectNear(Eigenvalues(filter), exact, 0.01);
       ExpectSamePoints(filter->GetOutput(), input);
       filter->WeldCoincidentPointsOff(); // a tube that is cut open
-      EXPECT_NEAR(Eigenvalues(filter)[1], 0.25, 0.01);
+      EXPECT_NEAR(Eigenvalues(filter)[1], isAware ? 0.25 : 1.0, 0.01);
     }
   }
 }
@@ -141,11 +125,12 @@ TEST(Seams, HangingNodesChangeNoSpectrum)
   {
     value *= M_PI * M_PI;
   }
-  for (const int space : { Algorithm::Grid, Algorithm::HatFunctions })
+  for (const auto& [space, isAware] : Spaces)
   {
     const auto filter = SpectrumOf(ToPolyData(Halves()), 8);
     filter->SetFunctionSpace(space);
-    ExpectNear(Eigenvalues(filter), exact, "halves");
+    filter->SetConnectivityAware(isAware);
+    ExpectNear(Eigenvalues(filter), exact, 0.02);
   }
 }
 
@@ -183,11 +168,31 @@ TEST(Seams, SolutionsAreThoseOfTheCleanMesh)
   }
 }
 
+TEST(Seams, DistancesCrossThem)
+{
+  const TriangleMesh tube = Tube();
+  vtkNew<vtkGeodesicDistance> filter;
+  filter->SetInputData(ToPolyData(tube));
+  filter->SetDepth(6);
+  filter->AddSourcePointId(PointOfTube(3, Along / 2));
+  filter->Update();
+  const std::vector<double> distance = PointValues(filter->GetOutput(), "Distance");
+  ASSERT_EQ(distance.size(), tube.points.size());
+  for (std::size_t k = 0; k < distance.size(); ++k)
+  {
+    const Vec3& p = tube.points[k];
+    const double turn = std::atan2(p[1], p[0]) - 2 * M_PI * 3 / Around;
+    const double exact = std::hypot(std::remainder(turn, 2 * M_PI), p[2] - 1.5);
+    EXPECT_NEAR(distance[k], exact, 0.1); // a cell is 0.05
+  }
+}
+
 TEST(Seams, DistancesCrossBlocks)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, ToPolyData(Rectangle(0.0, 0.5, 10, 20)));
-  blocks->SetBlock(1, ToPolyData(Rectangle(0.5 + 1e-15, 0.5, 20, 40)));
+  blocks->SetBlock(0, ToPolyData(FlatRectangle(10, 20, 0.5, 1.0)));
+  blocks->SetBlock(1, ToPolyData(Transform(FlatRectangle(20, 40, 0.5, 1.0), { 1, 0, 0 }, 0.0, 1.0,
+                        { 0.5 + 1e-15, 0, 0 })));
   vtkNew<vtkGeodesicDistance> filter;
   filter->SetInputDataObject(blocks);
   filter->BlocksAsOneOn();

@@ -1,5 +1,6 @@
 // Tests selections, in the form that ParaView makes them, as inputs of filters.
 #include "FilterSupport.h"
+#include "Selections.h"
 
 #include "vtkGeodesicDistance.h"
 #include "vtkHarmonicInterpolation.h"
@@ -8,13 +9,10 @@
 #include "vtkSurfaceDetail.h"
 
 #include "vtkDataSetTriangleFilter.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkOutputWindow.h"
-#include "vtkSelection.h"
-#include "vtkSelectionNode.h"
 #include "vtkUnsignedIntArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -27,46 +25,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-vtkSmartPointer<vtkSelectionNode> NodeOf(int kind, int content, vtkAbstractArray* list)
-{
-  auto node = vtkSmartPointer<vtkSelectionNode>::New();
-  node->SetFieldType(kind);
-  node->SetContentType(content);
-  node->SetSelectionList(list);
-  return node;
-}
-
-vtkSmartPointer<vtkSelection> SelectionOf(vtkSelectionNode* node)
-{
-  auto selection = vtkSmartPointer<vtkSelection>::New();
-  if (node)
-  {
-    selection->AddNode(node);
-  }
-  return selection;
-}
-
-vtkSmartPointer<vtkIdTypeArray> IdArray(const std::vector<vtkIdType>& ids)
-{
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  for (const vtkIdType id : ids)
-  {
-    array->InsertNextValue(id);
-  }
-  return array;
-}
-
-/// @param kind  vtkSelectionNode::POINT or CELL
-vtkSmartPointer<vtkSelection> SelectIds(int kind, const std::vector<vtkIdType>& ids)
-{
-  return SelectionOf(NodeOf(kind, vtkSelectionNode::INDICES, IdArray(ids)));
-}
-
-vtkSmartPointer<vtkSelection> SelectPoints(const std::vector<vtkIdType>& ids)
-{
-  return SelectIds(vtkSelectionNode::POINT, ids);
-}
 
 vtkSmartPointer<vtkDoubleArray> Numbers(int components, const std::vector<double>& numbers)
 {
@@ -152,15 +110,6 @@ std::vector<vtkIdType> Selected(vtkDataObject* data, vtkSelection* selection)
   return Selected(filter->GetOutput());
 }
 
-void ExpectRefused(vtkAlgorithm* filter, const std::string& reason)
-{
-  const Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
-  EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(0)));
-}
-
 template<class Filter>
 vtkSmartPointer<Filter> SolverOf(vtkPolyData* data)
 {
@@ -176,6 +125,53 @@ void AddMask(vtkPolyData* data, const std::vector<vtkIdType>& points)
   const std::set<vtkIdType> marked(points.begin(), points.end());
   vtkIdType point = 0;
   AddPointArray(data, "mask", 1, [&](const Vec3&, int) { return double(marked.count(point++)); });
+}
+
+/// Expects that a selection of points holds their values as a mask does.
+/// @param index   of the mask among the arrays of the filter
+/// @param misfit  largest error of a held value
+/// @param change  least difference of a point that is no longer held
+template<class Filter>
+void ExpectToHold(int index, const char* result, double misfit, double change, void (*set)(Filter*))
+{
+  const auto sphere = Sphere();
+  const std::vector<vtkIdType> held = PointsAbove(sphere, 0.8);
+  AddMask(sphere, held);
+  const auto solver = [&](bool mask, vtkSelection* selection)
+  {
+    const auto filter = SolverOf<Filter>(sphere);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    if (mask)
+    {
+      filter->SetInputArrayToProcess(index, 0, 0, Points, "mask");
+    }
+    filter->SetInputDataObject(2, selection);
+    set(filter);
+    return filter;
+  };
+  const auto byMask = solver(true, nullptr);
+  byMask->Update();
+  const auto bySelection = solver(false, SelectPoints(held));
+  bySelection->Update();
+  const std::vector<double> solution = PointValues(bySelection->GetOutput(), result);
+  EXPECT_EQ(solution, PointValues(byMask->GetOutput(), result));
+  const double said = FieldValue(bySelection->GetOutput(), "Misfit");
+  EXPECT_EQ(said, FieldValue(byMask->GetOutput(), "Misfit"));
+  EXPECT_LT(said, misfit);
+  const std::vector<double> f = PointValues(sphere, "f");
+  for (const vtkIdType point : held)
+  {
+    EXPECT_NEAR(solution[point], f[point], misfit);
+  }
+
+  // Another selection holds others, on the same matrices of the space.
+  bySelection->SetInputDataObject(2, SelectPoints({ 5 }));
+  bySelection->Update();
+  const std::vector<double> again = PointValues(bySelection->GetOutput(), result);
+  EXPECT_NEAR(again[5], f[5], 1e-5);
+  EXPECT_GT(std::abs(again[held[0]] - f[held[0]]), change);
+  EXPECT_EQ(bySelection->GetNumberOfRuns("System"), 1);
+  ExpectRefused(solver(false, SelectPoints({})), "not selected");
 }
 
 } // namespace
@@ -519,77 +515,12 @@ TEST(Selection, OfKnownValuesIsAMaskOfThem)
 
 TEST(Selection, OfHeldValuesIsAConstraintArray)
 {
-  const auto sphere = Sphere();
-  const std::vector<vtkIdType> held = PointsAbove(sphere, 0.8);
-  AddMask(sphere, held);
-  const auto poisson = [&](bool mask, vtkSelection* selection)
-  {
-    const auto filter = SolverOf<vtkScreenedPoisson>(sphere);
-    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
-    if (mask)
-    {
-      filter->SetInputArrayToProcess(4, 0, 0, Points, "mask");
-    }
-    filter->SetInputDataObject(2, selection);
-    filter->SetScreeningWeight(1.0);
-    return filter;
-  };
-  const auto byMask = poisson(true, nullptr);
-  byMask->Update();
-  const auto bySelection = poisson(false, SelectPoints(held));
-  bySelection->Update();
-  EXPECT_EQ(PointValues(bySelection->GetOutput(), "Solution"),
-    PointValues(byMask->GetOutput(), "Solution"));
-  EXPECT_EQ(
-    FieldValue(bySelection->GetOutput(), "Misfit"), FieldValue(byMask->GetOutput(), "Misfit"));
-
-  // Another selection holds others.
-  bySelection->SetInputDataObject(2, SelectPoints({ 5 }));
-  bySelection->Update();
-  const std::vector<double> f = PointValues(sphere, "f");
-  const std::vector<double> solution = PointValues(bySelection->GetOutput(), "Solution");
-  EXPECT_NEAR(solution[5], f[5], 1e-5);
-  EXPECT_GT(std::abs(solution[held[0]] - f[held[0]]), 0.1);
-  EXPECT_EQ(bySelection->GetNumberOfRuns("System"), 1);
-  ExpectRefused(poisson(false, SelectPoints({})), "not selected");
+  ExpectToHold<vtkScreenedPoisson>(
+    4, "Solution", 1e-5, 0.1, [](auto* filter) { filter->SetScreeningWeight(1.0); });
 }
 
 TEST(Selection, OfHeldHeatIsAConstraintArray)
 {
-  const auto sphere = Sphere();
-  const std::vector<vtkIdType> held = PointsAbove(sphere, 0.8);
-  AddMask(sphere, held);
-  const auto diffusion = [&](bool mask, vtkSelection* selection)
-  {
-    const auto filter = SolverOf<vtkHeatDiffusion>(sphere);
-    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
-    if (mask)
-    {
-      filter->SetInputArrayToProcess(2, 0, 0, Points, "mask");
-    }
-    filter->SetInputDataObject(2, selection);
-    filter->SetDiffusionTime(0.02);
-    return filter;
-  };
-  const auto byMask = diffusion(true, nullptr);
-  byMask->Update();
-  const auto bySelection = diffusion(false, SelectPoints(held));
-  bySelection->Update();
-  const std::vector<double> diffused = PointValues(bySelection->GetOutput(), "Diffused");
-  EXPECT_EQ(diffused, PointValues(byMask->GetOutput(), "Diffused"));
-  const std::vector<double> f = PointValues(sphere, "f");
-  for (const vtkIdType point : held)
-  {
-    EXPECT_NEAR(diffused[point], f[point], 1e-6);
-  }
-  EXPECT_LT(FieldValue(bySelection->GetOutput(), "Misfit"), 1e-6);
-
-  // Another selection holds others, on the same matrices of the space.
-  bySelection->SetInputDataObject(2, SelectPoints({ 5 }));
-  bySelection->Update();
-  const std::vector<double> again = PointValues(bySelection->GetOutput(), "Diffused");
-  EXPECT_NEAR(again[5], f[5], 1e-5);
-  EXPECT_GT(std::abs(again[held[0]] - f[held[0]]), 0.01);
-  EXPECT_EQ(bySelection->GetNumberOfRuns("System"), 1);
-  ExpectRefused(diffusion(false, SelectPoints({})), "not selected");
+  ExpectToHold<vtkHeatDiffusion>(
+    2, "Diffused", 1e-6, 0.01, [](auto* filter) { filter->SetDiffusionTime(0.02); });
 }

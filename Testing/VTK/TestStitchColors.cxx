@@ -211,8 +211,7 @@ void ExpectToBeChosen(vtkStitchColors* filter, const char* property)
   Messages messages(filter);
   EXPECT_EQ(filter->GetExecutive()->Update(), 1);
   EXPECT_TRUE(messages.errors.empty());
-  ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find(std::string("Choose a ") + property), std::string::npos);
+  ExpectOne(messages.warnings, std::string("Choose a ") + property);
   EXPECT_TRUE(PassesOn(filter, "StitchedColors"));
 }
 
@@ -371,11 +370,7 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   {
     const auto filter = Stitch(data, colors, 3);
     filter->SetInputArrayToProcess(1, 0, 0, Points, labels);
-    Messages messages(filter);
-    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-    ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
-    EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+    ExpectRefused(filter, reason);
   };
   vtkNew<vtkIntArray> other;
   other->DeepCopy(data->GetPointData()->GetArray("Scan"));
@@ -395,10 +390,7 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   expectRefused("Seen", "Hole", "NaN");
   const auto filter = Stitch(data, "Seen", 3);
   filter->SetReferenceLabel(3);
-  Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
-  ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Reference Label 3"), std::string::npos);
+  ExpectRefused(filter, "Reference Label 3");
 }
 
 /// A real scan with colors, cut into five scans with other gains and offsets.

@@ -11,8 +11,6 @@
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
-#include "vtkTable.h"
-
 #include <gtest/gtest.h>
 
 using namespace gridfem;
@@ -31,12 +29,6 @@ std::vector<double> StepsOf(vtkAlgorithm* filter, int port = 0)
   vtkInformation* info = filter->GetOutputInformation(port);
   const double* steps = info->Get(Pipeline::TIME_STEPS());
   return std::vector<double>(steps, steps + info->Length(Pipeline::TIME_STEPS()));
-}
-
-std::vector<double> Column(vtkAlgorithm* filter, const char* name)
-{
-  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-  return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name)));
 }
 
 class Time : public ::testing::Test

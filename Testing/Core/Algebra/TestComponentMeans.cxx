@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-using testing::RandomVectors;
+using testing::RandomValues;
 
 /// Functions of `components` components in turn. The last component has no area.
 struct Functions
@@ -20,7 +20,7 @@ struct Functions
 
   Functions(Index count, Index numberOfComponents) : components(numberOfComponents)
   {
-    const MultiVector random = RandomVectors(count, 1, 7);
+    const MultiVector random = RandomValues(count, 1, 7);
     for (Index i = 0; i < count; ++i)
     {
       component.push_back((i * 7) % components);
@@ -43,7 +43,7 @@ TEST_P(Means, ThreadsDoNotChangeABit)
 {
   for (const Functions& functions : { few, many })
   {
-    const MultiVector x = RandomVectors(60000, GetParam());
+    const MultiVector x = RandomValues(60000, GetParam());
     const auto removed = [&](int threads)
     {
       const ComponentMeans means = functions.Means(threads);
@@ -63,7 +63,7 @@ TEST_P(Means, OfConstantsAreTheConstants)
   for (const Functions& functions : { few, many })
   {
     const ComponentMeans means = functions.Means(2);
-    MultiVector constants = RandomVectors(functions.components, GetParam());
+    MultiVector constants = RandomValues(functions.components, GetParam());
     MultiVector x = MultiVector::Zero(60000, GetParam());
     means.AddConstants(constants, x);
     constants.bottomRows(1).setZero(); // no area, no mean

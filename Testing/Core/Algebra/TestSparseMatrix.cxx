@@ -11,7 +11,7 @@ namespace
 {
 
 using testing::Dense;
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::Sparse;
 
 /// Bound for sums of at most 12 products of numbers up to 1, in any order.
@@ -19,7 +19,7 @@ constexpr double Rounding = 1e-14;
 
 SparseMatrix RandomMatrix(Index rows, Index columns)
 {
-  Eigen::MatrixXd dense = RandomVectors(rows, columns, 5);
+  Eigen::MatrixXd dense = RandomValues(rows, columns, 5);
   for (Index i = 0; i < rows; ++i)
   {
     for (Index j = 0; j < columns; ++j)
@@ -43,8 +43,8 @@ TEST_P(Widths, ProductsEqualDenseOnes)
   const int width = GetParam();
   const SparseMatrix A = RandomMatrix(19, 23);
   const Eigen::MatrixXd D = Dense(A);
-  const MultiVector x = RandomVectors(23, width, 1);
-  const MultiVector b = RandomVectors(19, width, 2);
+  const MultiVector x = RandomValues(23, width, 1);
+  const MultiVector b = RandomValues(19, width, 2);
   MultiVector y;
   Multiply(A, x, y);
   EXPECT_LT((y - D * x).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), Rounding);
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SparseMatrix, ResidualMayOverwriteTheRightHandSide)
 {
   const SparseMatrix A = RandomMatrix(12, 12);
-  const MultiVector x = RandomVectors(12, 3, 1);
-  const MultiVector b = RandomVectors(12, 3, 2);
+  const MultiVector x = RandomValues(12, 3, 1);
+  const MultiVector b = RandomValues(12, 3, 2);
   MultiVector apart;
   MultiVector inPlace = b;
   Residual(A, x, b, apart);
@@ -76,7 +76,7 @@ TEST(SparseMatrix, ThreadsDoNotChangeABit)
   const SparseMatrix& A = levels[0].A;
   for (const int width : { 1, 3, 10 })
   {
-    const MultiVector x = RandomVectors(A.columns, width);
+    const MultiVector x = RandomValues(A.columns, width);
     MultiVector one;
     MultiVector two;
     Multiply(A, x, one, 1);

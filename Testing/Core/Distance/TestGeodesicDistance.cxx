@@ -132,12 +132,8 @@ double ErrorOnSquare(bool isOnHats, int depth, int fineness)
 TriangleMesh BentStrip(
   int along, int across, double length, double width, const std::function<Vec3(double)>& place)
 {
-  TriangleMesh mesh = FlatRectangle(along, across, length, width);
-  for (Vec3& point : mesh.points)
-  {
-    point = place(point[0]) + Vec3(0, point[1], 0);
-  }
-  return mesh;
+  return Mapped(FlatRectangle(along, across, length, width),
+    [&](const Vec3& p) -> Vec3 { return place(p[0]) + Vec3(0, p[1], 0); });
 }
 
 /// Exact distances on a flat strip. Bending keeps them.
@@ -362,17 +358,6 @@ std::vector<Id> BorderOfSquare(const TriangleMesh& mesh)
     }
   }
   return border;
-}
-
-/// Every nth point.
-std::vector<Id> EveryPoint(const TriangleMesh& mesh, Id n)
-{
-  std::vector<Id> points;
-  for (Id i = 0; i < static_cast<Id>(mesh.points.size()); i += n)
-  {
-    points.push_back(i);
-  }
-  return points;
 }
 
 } // namespace

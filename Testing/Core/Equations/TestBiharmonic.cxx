@@ -20,16 +20,6 @@ double Smooth(const Vec3& p)
   return std::sin(2.0 * p[0]) + p[1] * p[2];
 }
 
-std::vector<Id> EveryPoint(const TriangleMesh& mesh, Id stride)
-{
-  std::vector<Id> points;
-  for (Id i = 0; i < static_cast<Id>(mesh.points.size()); i += stride)
-  {
-    points.push_back(i);
-  }
-  return points;
-}
-
 MultiVector ValuesAt(const TriangleMesh& mesh, const std::vector<Id>& points)
 {
   MultiVector values(static_cast<Id>(points.size()), 2);

@@ -38,17 +38,6 @@ SolveOptions Solver(double tolerance = 1e-8)
   return options;
 }
 
-/// Every step-th point.
-std::vector<Id> Every(Id step, Id points)
-{
-  std::vector<Id> chosen;
-  for (Id point = 0; point < points; point += step)
-  {
-    chosen.push_back(point);
-  }
-  return chosen;
-}
-
 MultiVector WavesAt(const TriangleMesh& mesh, const std::vector<Id>& points, double offset = 0.0)
 {
   MultiVector values(static_cast<Id>(points.size()), 2);
@@ -84,7 +73,7 @@ TEST_P(PointConstraints, SolveTheSystemWithMultipliers)
   {
     const TriangleMesh mesh = Transform(Torus(24, 12, 1.0, 0.4), { 1, 2, 3 }, 0.3);
     const auto space = Build(mesh, GetParam(), 3);
-    const auto points = Every(23, static_cast<Id>(mesh.points.size()));
+    const auto points = EveryPoint(mesh, 23);
     const MultiVector values = WavesAt(mesh, points, 100.0);
     const MultiVector load = space->LoadOfValues(
       { FieldAssociation::Points, RandomValues(static_cast<Id>(mesh.points.size()), 2) });
@@ -112,8 +101,7 @@ TEST_P(PointConstraints, AreMetInFewIterationsHoweverManyThereAre)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.3);
   const auto space = Build(mesh, GetParam(), 5);
-  const auto all = static_cast<Id>(mesh.points.size());
-  const Field field{ FieldAssociation::Points, WavesAt(mesh, Every(1, all)) };
+  const Field field{ FieldAssociation::Points, WavesAt(mesh, EveryPoint(mesh, 1)) };
   PoissonOptions free;
   free.screeningWeight = 0.0;
   free.solve = Solver();
@@ -122,7 +110,7 @@ TEST_P(PointConstraints, AreMetInFewIterationsHoweverManyThereAre)
                       .report.iterations;
   for (const Id step : { 3001, 307, 31, 13 })
   {
-    const auto points = Every(step, all);
+    const auto points = EveryPoint(mesh, step);
     const MultiVector values = WavesAt(mesh, points);
     const ConstrainedSolution found = Solve(*space, 0.0, {}, points, values);
     EXPECT_TRUE(found.report.converged);
@@ -138,7 +126,7 @@ TEST_P(PointConstraints, OfManyPointsAreMet)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(80), { 1, 2, 3 }, 0.3);
   const auto space = Build(mesh, GetParam(), 7);
-  std::vector<Id> points = Every(1, static_cast<Id>(mesh.points.size()));
+  std::vector<Id> points = EveryPoint(mesh, 1);
   points.resize(25000);
   const MultiVector values = WavesAt(mesh, points).col(0);
   const ConstrainedSolution found = Solve(*space, 0.0, {}, points, values);
@@ -258,7 +246,7 @@ TEST_P(PointConstraints, LeaveAConstantOpenOnComponentsWithoutOne)
 TEST_P(PointConstraints, OfAnySizeAreScaledAndDoNotDependOnThreads)
 {
   const TriangleMesh mesh = GeodesicSphere(12);
-  const auto points = Every(17, static_cast<Id>(mesh.points.size()));
+  const auto points = EveryPoint(mesh, 17);
   const MultiVector values = WavesAt(mesh, points);
   const auto space = Build(mesh, GetParam(), 4);
   const MultiVector one = Solve(*space, 0.0, {}, points, values, 1).coefficients;
@@ -275,7 +263,7 @@ TEST_P(PointConstraints, OfNaNAreNotMet)
 {
   const TriangleMesh mesh = GeodesicSphere(6);
   const auto space = Build(mesh, this->GetParam(), 4);
-  const std::vector<Id> points = Every(9, static_cast<Id>(mesh.points.size()));
+  const std::vector<Id> points = EveryPoint(mesh, 9);
   for (const Id row : { Id(0), Id(2) })
   {
     MultiVector values = WavesAt(mesh, points);

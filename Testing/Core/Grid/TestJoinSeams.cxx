@@ -20,37 +20,20 @@ using namespace gridfem::testing;
 namespace
 {
 
-TriangleMesh InSinglePrecision(TriangleMesh mesh)
+TriangleMesh InSinglePrecision(const TriangleMesh& mesh)
 {
-  for (Vec3& point : mesh.points)
-  {
-    point = point.cast<float>().cast<double>();
-  }
-  return mesh;
+  return Mapped(mesh, [](const Vec3& p) -> Vec3 { return p.cast<float>().cast<double>(); });
 }
 
-/// Maps a rectangle of nx x ny squares with the parameters 0 .. 1. Its sides have points of their
-/// own, so that a closed surface has a seam.
-template<class Position>
-TriangleMesh Mapped(int nx, int ny, const Position& position)
-{
-  TriangleMesh mesh = FlatRectangle(nx, ny);
-  for (Vec3& point : mesh.points)
-  {
-    point = position(point[0], point[1]);
-  }
-  return mesh;
-}
-
-/// A tube around z, computed in the precision of Real.
+/// A tube around z with a seam, computed in the precision of Real.
 template<class Real>
 TriangleMesh Tube(int around, int along)
 {
-  return Mapped(around, along,
-    [](double u, double v)
+  return Mapped(FlatRectangle(around, along),
+    [](const Vec3& p)
     {
-      const Real angle = Real(2 * M_PI) * Real(u);
-      return Vec3(std::cos(angle), std::sin(angle), Real(3 * v));
+      const Real angle = Real(2 * M_PI) * Real(p[0]);
+      return Vec3(std::cos(angle), std::sin(angle), Real(3 * p[1]));
     });
 }
 
@@ -58,37 +41,21 @@ TriangleMesh Tube(int around, int along)
 template<class Real>
 TriangleMesh SphereWithSeam(int around, int along)
 {
-  return Mapped(around, along,
-    [](double u, double v)
+  return Mapped(FlatRectangle(around, along),
+    [](const Vec3& p)
     {
-      const Real angle = Real(2 * M_PI) * Real(u);
-      const Real height = Real(M_PI) * Real(v);
+      const Real angle = Real(2 * M_PI) * Real(p[0]);
+      const Real height = Real(M_PI) * Real(p[1]);
       const Real radius = std::sin(height);
       return Vec3(radius * std::cos(angle), radius * std::sin(angle), std::cos(height));
     });
 }
 
-/// A unit square of two halves, each with squares of its own.
-TriangleMesh Halves(int left, int right)
-{
-  TriangleMesh mesh = FlatRectangle(left / 2, left, 0.5, 1.0);
-  TriangleMesh other = FlatRectangle(right / 2, right, 0.5, 1.0);
-  for (Vec3& point : other.points)
-  {
-    point[0] += 0.5;
-  }
-  return Join(mesh, other);
-}
-
 /// Two squares side by side, with a gap between them.
 TriangleMesh SquaresWithGap(int n, double gap)
 {
-  TriangleMesh other = FlatRectangle(n, n);
-  for (Vec3& point : other.points)
-  {
-    point[0] += 1.0 + gap;
-  }
-  return Join(FlatRectangle(n, n), other);
+  const TriangleMesh square = FlatRectangle(n, n);
+  return Join(square, Transform(square, { 1, 0, 0 }, 0.0, 1.0, { 1.0 + gap, 0, 0 }));
 }
 
 std::size_t NumberOfOpen(const TriangleMesh& mesh)
@@ -154,11 +121,11 @@ TEST(JoinSeams, ClosesSurfacesOfRevolution)
 
 TEST(JoinSeams, ClosesRotatedSectorsAndMirroredHalves)
 {
-  const TriangleMesh sector = Mapped(10, 20,
-    [](double u, double v)
+  const TriangleMesh sector = Mapped(FlatRectangle(10, 20),
+    [](const Vec3& p)
     {
-      const double radius = std::sin(M_PI * (0.05 + 0.9 * v));
-      return Vec3(radius * std::cos(u * M_PI / 4), radius * std::sin(u * M_PI / 4), v);
+      const double radius = std::sin(M_PI * (0.05 + 0.9 * p[1]));
+      return Vec3(radius * std::cos(p[0] * M_PI / 4), radius * std::sin(p[0] * M_PI / 4), p[1]);
     });
   TriangleMesh whole;
   for (int k = 0; k < 8; ++k)
@@ -168,13 +135,10 @@ TEST(JoinSeams, ClosesRotatedSectorsAndMirroredHalves)
   JoinSeams(whole);
   EXPECT_EQ(NumberOfOpen(whole), 160u); // the two rings
 
-  TriangleMesh half = Transform(FlatRectangle(6, 6), { 3, 1, 2 }, 0.5);
+  const TriangleMesh half = Transform(FlatRectangle(6, 6), { 3, 1, 2 }, 0.5);
   const Vec3 normal = (half.points[1] - half.points[0]).normalized();
-  TriangleMesh mirrored = half;
-  for (Vec3& point : mirrored.points)
-  {
-    point -= 2.0 * normal.dot(point - half.points[0]) * normal;
-  }
+  const TriangleMesh mirrored = Mapped(
+    half, [&](const Vec3& p) -> Vec3 { return p - 2.0 * normal.dot(p - half.points[0]) * normal; });
   TriangleMesh both = Join(half, mirrored);
   JoinSeams(both);
   EXPECT_EQ(NumberOfOpen(both), 36u);

@@ -1,5 +1,6 @@
 // Flat faces in planes of the grid whose points have noise. Their triangles lie in two layers of
 // cells, and lines of the clip are moved onto the planes.
+#include "AtDepth.h"
 #include "Grid/GridFunctions.h"
 #include "Largest.h"
 #include "Meshes.h"
@@ -90,8 +91,7 @@ TEST(NoisyFaces, HaveTheLinksOfTheirEdges)
 /// plane. Both err by about two percent at this depth.
 TEST(NoisyFaces, HaveTheModesOfTheTurnedSurface)
 {
-  SurfaceOptions surface = SpectrumSolver::SurfaceDefaults();
-  surface.space.depth = Depth;
+  SurfaceOptions surface = AtDepth<SpectrumSolver>(Depth);
   SpectrumSolver::Options options;
   options.numberOfModes = 6;
   for (const TriangleMesh& mesh : Aligned())
@@ -119,8 +119,7 @@ TEST(NoisyFaces, HaveTheModesOfTheTurnedSurface)
 
 TEST(NoisyFaces, HaveStraightDistancesFromACorner)
 {
-  SurfaceOptions surface = DistanceSolver::SurfaceDefaults();
-  surface.space.depth = Depth;
+  SurfaceOptions surface = AtDepth<DistanceSolver>(Depth);
   for (const TriangleMesh& mesh : Aligned())
   {
     const auto corner = std::find(mesh.points.begin(), mesh.points.end(), Vec3(0, 0, 0));

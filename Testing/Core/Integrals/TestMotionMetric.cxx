@@ -12,17 +12,6 @@ using namespace gridfem::testing;
 namespace
 {
 
-Vec3 Bend(const Vec3& p)
-{
-  return p + Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(2.0 * p[0]), -0.25 * p[0] * p[1]);
-}
-
-TriangleMesh Bent(TriangleMesh mesh)
-{
-  std::transform(mesh.points.begin(), mesh.points.end(), mesh.points.begin(), Bend);
-  return mesh;
-}
-
 /// Returns a function of the points, which the motion does not change.
 Field ValuesOf(const TriangleMesh& mesh)
 {
@@ -43,7 +32,7 @@ protected:
     : mesh(
         Transform(std::string(GetParam()) == "sphere" ? GeodesicSphere(6) : Torus(24, 12, 1.0, 0.3),
           { 1, 2, 3 }, 0.4)),
-      moved(Bent(mesh))
+      moved(Mapped(mesh, Bend))
   {
   }
 

@@ -13,7 +13,7 @@ namespace gridfem
 namespace
 {
 
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::RelativeDifference;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ protected:
 TEST_P(Solvers, FindTheSolution)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 3);
+  const MultiVector exact = RandomValues(multigrid.Matrix().rows, 3);
   const MultiVector b = Applied(multigrid, exact);
   MultiVector x = MultiVector::Zero(exact.rows(), 3);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-10));
@@ -83,7 +83,7 @@ TEST_P(Solvers, FindTheSolution)
 TEST_P(Solvers, HistoryIsWhatItSays)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   SolveOptions options = Tolerance(1e-6);
   options.measure = SolveOptions::Measure::Residual; // x stays as it was measured
@@ -113,7 +113,7 @@ TEST_P(Solvers, HistoryIsWhatItSays)
 TEST_P(Solvers, CanStopOnTheResidual)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 2);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 2);
   MultiVector x = MultiVector::Zero(b.rows(), 2);
   SolveOptions options = Tolerance(1e-7);
   options.measure = SolveOptions::Measure::Residual;
@@ -129,10 +129,10 @@ TEST_P(Solvers, CanStopOnTheResidual)
 TEST_P(Solvers, StartFromAGuess)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1, 1);
+  const MultiVector exact = RandomValues(multigrid.Matrix().rows, 1, 1);
   const MultiVector b = Applied(multigrid, exact);
   MultiVector cold = MultiVector::Zero(b.rows(), 1);
-  MultiVector warm = exact + 1e-6 * RandomVectors(b.rows(), 1, 2);
+  MultiVector warm = exact + 1e-6 * RandomValues(b.rows(), 1, 2);
   MultiVector done = exact;
   const SolveReport fromZero = Solve(multigrid, b, cold, Tolerance(1e-8));
   const SolveReport fromGuess = Solve(multigrid, b, warm, Tolerance(1e-8));
@@ -151,7 +151,7 @@ double EnergyOf(const Multigrid& multigrid, const MultiVector& x)
 TEST_P(Solvers, LastCorrectionLowersTheError)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector exact = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector measured = MultiVector::Zero(exact.rows(), 1);
   MultiVector corrected = measured;
   const MultiVector b = Applied(multigrid, exact);
@@ -169,7 +169,7 @@ TEST_P(Solvers, LastCorrectionLowersTheError)
 TEST_P(Solvers, ReferenceOfAStartIsAboveNoneAndBelowTheSolution)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1, 1);
+  const MultiVector exact = RandomValues(multigrid.Matrix().rows, 1, 1);
   const MultiVector b = Applied(multigrid, exact);
   MultiVector Bb;
   multigrid.Precondition(b, Bb);
@@ -184,22 +184,22 @@ TEST_P(Solvers, ReferenceOfAStartIsAboveNoneAndBelowTheSolution)
   };
   // A multiple of the solution reaches the Cauchy-Schwarz bound.
   EXPECT_NEAR(referenceOf(0.6 * exact) / EnergyOf(multigrid, exact), 1.0, 1e-12);
-  const MultiVector near = exact + 0.1 * RandomVectors(b.rows(), 1, 2);
+  const MultiVector near = exact + 0.1 * RandomValues(b.rows(), 1, 2);
   EXPECT_LT(referenceOf(near), EnergyOf(multigrid, exact));
   EXPECT_NEAR(
     referenceOf(near), near.cwiseProduct(b).sum() / EnergyOf(multigrid, near), 1e-12 * ofZero);
   // Starts that are worse than zero.
   EXPECT_NEAR(referenceOf(-2.0 * exact) / ofZero, 1.0, 1e-12);
-  EXPECT_NEAR(referenceOf(100.0 * RandomVectors(b.rows(), 1, 3)) / ofZero, 1.0, 1e-12);
+  EXPECT_NEAR(referenceOf(100.0 * RandomValues(b.rows(), 1, 3)) / ofZero, 1.0, 1e-12);
 }
 
 TEST_P(Solvers, StartFromZeroWhereTheStartIsFarBeyond)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1, 1));
+  const MultiVector b = Applied(multigrid, RandomValues(multigrid.Matrix().rows, 1, 1));
   MultiVector fromZero = MultiVector::Zero(b.rows(), 1);
   const SolveReport expected = Solve(multigrid, b, fromZero, Tolerance(1e-6));
-  MultiVector x = 1e12 * RandomVectors(b.rows(), 1, 3); // would end the iteration as divergence
+  MultiVector x = 1e12 * RandomValues(b.rows(), 1, 3); // would end the iteration as divergence
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-6));
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, expected.iterations);
@@ -212,7 +212,7 @@ TEST_P(Solvers, ManyColumnsEqualOneByOne)
   const Multigrid multigrid = SolidProblem();
   for (const int width : { 2, 3, 8, 11 })
   {
-    MultiVector b = RandomVectors(multigrid.Matrix().rows, width);
+    MultiVector b = RandomValues(multigrid.Matrix().rows, width);
     b.col(0) = Applied(multigrid, MultiVector::Ones(b.rows(), 1)); // converges before the others
     b.col(1) *= 1e9;
     MultiVector together = MultiVector::Zero(b.rows(), width);
@@ -239,7 +239,7 @@ TEST_P(Solvers, ThreadsDoNotChangeABit)
   const auto samples = testing::TiltedPlane(5, 2.3, 0.7);
   const Multigrid serial = Make(samples, 6, 0.01, one);
   const Multigrid parallel = Make(samples, 6, 0.01, two);
-  const MultiVector b = RandomVectors(serial.Matrix().rows, 3);
+  const MultiVector b = RandomValues(serial.Matrix().rows, 3);
   MultiVector x1 = MultiVector::Zero(b.rows(), 3);
   MultiVector x2 = x1;
   const SolveReport report1 = Solve(serial, b, x1, Tolerance(1e-8, 5));
@@ -251,7 +251,7 @@ TEST_P(Solvers, ThreadsDoNotChangeABit)
 TEST_P(Solvers, SingularSystemsWithAProjection)
 {
   const Multigrid multigrid = SolidProblem(0.0);
-  MultiVector exact = RandomVectors(multigrid.Matrix().rows, 2);
+  MultiVector exact = RandomValues(multigrid.Matrix().rows, 2);
   RemoveMean(exact);
   // The projection removes an inconsistent part of b.
   const MultiVector b = Applied(multigrid, exact).array() + 0.5;
@@ -265,7 +265,7 @@ TEST_P(Solvers, SingularSystemsWithAProjection)
 TEST_P(Solvers, SingularConsistentSystemsWithoutAProjection)
 {
   const Multigrid multigrid = SolidProblem(0.0);
-  MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1);
+  MultiVector exact = RandomValues(multigrid.Matrix().rows, 1);
   RemoveMean(exact);
   MultiVector x = MultiVector::Zero(exact.rows(), 1);
   EXPECT_TRUE(Solve(multigrid, Applied(multigrid, exact), x, Tolerance(1e-8)).converged);
@@ -276,9 +276,9 @@ TEST_P(Solvers, SingularConsistentSystemsWithoutAProjection)
 TEST_P(Solvers, ZeroRightHandSideGivesZero)
 {
   const Multigrid multigrid = SolidProblem();
-  MultiVector b = RandomVectors(multigrid.Matrix().rows, 2, 1);
+  MultiVector b = RandomValues(multigrid.Matrix().rows, 2, 1);
   b.col(1).setZero();
-  MultiVector x = RandomVectors(b.rows(), 2, 2);
+  MultiVector x = RandomValues(b.rows(), 2, 2);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-8));
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(x.col(1).norm(), 0.0);
@@ -292,7 +292,7 @@ TEST_P(Solvers, ZeroRightHandSideGivesZero)
 TEST_P(Solvers, NaNInOneColumnIsReportedAndStaysThere)
 {
   const Multigrid multigrid = SolidProblem();
-  MultiVector b = RandomVectors(multigrid.Matrix().rows, 3);
+  MultiVector b = RandomValues(multigrid.Matrix().rows, 3);
   MultiVector good = MultiVector::Zero(b.rows(), 1);
   Solve(multigrid, b.col(0), good, Tolerance(1e-8));
   b(5, 1) = NaN;
@@ -324,7 +324,7 @@ TEST_P(Solvers, IndefiniteSystemsEndWithoutSuccess)
 {
   auto levels = testing::SampledHierarchy(testing::SolidCube(2), 2, 1, -1.0, 0.1);
   const Multigrid multigrid(std::move(levels), {});
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 2);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 2);
   MultiVector x = MultiVector::Zero(b.rows(), 2);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-8));
   EXPECT_FALSE(report.converged);
@@ -334,7 +334,7 @@ TEST_P(Solvers, IndefiniteSystemsEndWithoutSuccess)
 TEST_P(Solvers, TooFewIterationsAreNotSuccess)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-8, 2));
   EXPECT_FALSE(report.converged);
@@ -345,7 +345,7 @@ TEST_P(Solvers, ImpossibleTolerancesAreNotCalledReached)
 {
   // Rounding bounds the true residual from below. An updated residual would keep falling.
   const Multigrid multigrid = SolidProblem(1e-6);
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-22, 60));
   EXPECT_FALSE(report.converged);
@@ -355,7 +355,7 @@ TEST_P(Solvers, ImpossibleTolerancesAreNotCalledReached)
 TEST_P(Solvers, ReportProgressAndAbort)
 {
   const Multigrid multigrid = SolidProblem();
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   std::vector<double> fractions;
   const auto report = [&](double fraction)
@@ -423,7 +423,7 @@ TEST(ConjugateGradients, EndAfterAsManyStepsAsAnyOperatorHasValues)
 {
   const Preconditioner none = [](const MultiVector& r, MultiVector& z) { z = r; };
   const LinearOperator A = FourValues(1000);
-  const MultiVector exact = RandomVectors(A.rows, 2);
+  const MultiVector exact = RandomValues(A.rows, 2);
   MultiVector b;
   A.multiply(exact, b);
   MultiVector x = MultiVector::Zero(A.rows, 2);
@@ -445,7 +445,7 @@ TEST(ConjugateGradients, TakeNoStepThatNobodyLooksAt)
       z = r;
       z.topRows(4) *= largest;
     };
-    const MultiVector exact = RandomVectors(A.rows, 4);
+    const MultiVector exact = RandomValues(A.rows, 4);
     MultiVector b;
     A.multiply(exact, b);
     MultiVector x = MultiVector::Zero(A.rows, 4);
@@ -468,7 +468,7 @@ TEST(ConjugateGradients, IterationsGrowSlowlyOnASurface)
   {
     const Multigrid multigrid =
       Make(testing::TiltedPlane(depth, 0.3 * (1 << depth), 0.02), depth, 1e-4);
-    const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1);
+    const MultiVector exact = RandomValues(multigrid.Matrix().rows, 1);
     MultiVector x = MultiVector::Zero(exact.rows(), 1);
     const SolveReport report = SolveConjugateGradients(
       OperatorOf(multigrid), CycleOf(multigrid), Applied(multigrid, exact), x, Tolerance(1e-8));
@@ -483,7 +483,7 @@ TEST(ConjugateGradients, IterationsDoNotDependOnTheSizeOfASolid)
   for (const int depth : { 2, 3, 4 })
   {
     const Multigrid multigrid = Make(testing::SolidCube(depth), depth, 1e-3);
-    const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+    const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
     MultiVector x = MultiVector::Zero(b.rows(), 1);
     const SolveReport report =
       SolveConjugateGradients(OperatorOf(multigrid), CycleOf(multigrid), b, x, Tolerance(1e-8));
@@ -495,7 +495,7 @@ TEST(ConjugateGradients, IterationsDoNotDependOnTheSizeOfASolid)
 TEST(ConjugateGradients, AreFasterThanCyclesAlone)
 {
   const Multigrid multigrid = Make(testing::TiltedPlane(5, 2.3, 0.3), 5, 1e-3);
-  const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1));
+  const MultiVector b = Applied(multigrid, RandomValues(multigrid.Matrix().rows, 1));
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   MultiVector y = x;
   const SolveReport krylov =

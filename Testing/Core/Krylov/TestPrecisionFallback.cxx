@@ -14,7 +14,7 @@ namespace gridfem
 namespace
 {
 
-using testing::RandomVectors;
+using testing::RandomValues;
 
 /// Patches that do not overlap, without a coarser level. A cycle solves them one by one. Each has
 /// rank `seen` except for `hidden`, like functions on a nearly flat piece of surface.
@@ -27,7 +27,7 @@ Multigrid NearlyDependentPatches(int seen, double hidden, FactorPrecision precis
   PatchOrder& order = levels[0].order;
   for (int k = 0; k < Count; ++k)
   {
-    const Eigen::MatrixXd R = RandomVectors(N, N, k + 1);
+    const Eigen::MatrixXd R = RandomValues(N, N, k + 1);
     A.block(N * k, N * k, N, N) =
       R.leftCols(seen) * R.leftCols(seen).transpose() +
       hidden * R.rightCols(N - seen) * R.rightCols(N - seen).transpose();
@@ -113,7 +113,7 @@ TEST_P(Fallback, FactorsThatAreNotPositiveAnyMore)
   // Rounding is 6e-8 / sqrt(1e-13): local solves overshoot, and the cycle is indefinite. In double
   // precision a cycle is exact up to 1e-16 / sqrt(1e-13).
   const Multigrid single = NearlyDependentPatches(1, 1e-13, FactorPrecision::Single);
-  const MultiVector exact = RandomVectors(single.Matrix().rows, 2);
+  const MultiVector exact = RandomValues(single.Matrix().rows, 2);
   const MultiVector b = Applied(single, exact);
   const SolveOptions options = Tolerance(1e-7, 100);
   MultiVector x;
@@ -131,7 +131,7 @@ TEST_P(Fallback, FactorsThatSlowDown)
   // In single precision conjugate gradients need 60 iterations and end 8e-4 off, because rounding
   // of their steps adds up. 1000 cycles do not suffice.
   const Multigrid single = NearlyDependentPatches(1, 2e-13, FactorPrecision::Single);
-  const MultiVector exact = RandomVectors(single.Matrix().rows, 2);
+  const MultiVector exact = RandomValues(single.Matrix().rows, 2);
   const MultiVector b = Applied(single, exact);
   const SolveOptions options = Tolerance(1e-11, Stagnation::PaceWindow + 10);
   MultiVector x;
@@ -154,7 +154,7 @@ TEST_P(Fallback, ThreadsDoNotChangeABit)
     const Multigrid multigrid = Plane(options);
     // The tolerance is below rounding, so both precisions are too slow.
     report.push_back(
-      WithFallback(multigrid, Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 3)),
+      WithFallback(multigrid, Applied(multigrid, RandomValues(multigrid.Matrix().rows, 3)),
         x[threads - 1], Tolerance(1e-40, 30)));
   }
   EXPECT_GE(report[0].doubleSince, Stagnation::PaceWindow);
@@ -166,7 +166,7 @@ TEST_P(Fallback, IsNotThereForWhatConverges)
 {
   const Multigrid multigrid(testing::SampledHierarchy(testing::SolidCube(3), 3, 1, 0.1, 1.0), {});
   ASSERT_TRUE(multigrid.HasSingleFactors());
-  const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 2));
+  const MultiVector b = Applied(multigrid, RandomValues(multigrid.Matrix().rows, 2));
   MultiVector x;
   MultiVector expected;
   const SolveReport report = WithFallback(multigrid, b, x, Tolerance(1e-12, 100));
@@ -180,7 +180,7 @@ TEST_P(Fallback, EndsAtAStandstill)
 {
   // Rounding ends both iterations, long before the limit.
   const Multigrid multigrid = Plane({});
-  const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1));
+  const MultiVector b = Applied(multigrid, RandomValues(multigrid.Matrix().rows, 1));
   MultiVector x;
   const SolveReport report = WithFallback(multigrid, b, x, Tolerance(1e-40, 5000));
   EXPECT_FALSE(report.converged);
@@ -200,7 +200,7 @@ TEST_P(Fallback, LeavesOtherCyclesAlone)
   {
     const Multigrid multigrid = Plane(options);
     EXPECT_FALSE(multigrid.HasSingleFactors());
-    const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1));
+    const MultiVector b = Applied(multigrid, RandomValues(multigrid.Matrix().rows, 1));
     MultiVector x;
     const SolveReport report = WithFallback(multigrid, b, x, Tolerance(1e-40, 100));
     EXPECT_EQ(report.doubleSince, -1);

@@ -16,13 +16,13 @@ namespace
 {
 
 using testing::DenseEigen;
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::RelativeDifference;
 using testing::Sparse;
 
 Eigen::MatrixXd RandomSemiDefinite(Id size, Id rank)
 {
-  const Eigen::MatrixXd R = RandomVectors(size, rank, 3);
+  const Eigen::MatrixXd R = RandomValues(size, rank, 3);
   return R * R.transpose();
 }
 
@@ -56,7 +56,7 @@ TEST(PivotedCholesky, FindsRankAndFactorAcrossPanels)
 TEST(CoarseSolver, SolvesRegularSystems)
 {
   const Eigen::MatrixXd D = RandomSemiDefinite(200, 200) + Eigen::MatrixXd::Identity(200, 200);
-  const MultiVector exact = RandomVectors(200, 3);
+  const MultiVector exact = RandomValues(200, 3);
   MultiVector x;
   CoarseSolver(Sparse(D)).Solve(D * exact, x);
   // The condition number is below 300.
@@ -66,7 +66,7 @@ TEST(CoarseSolver, SolvesRegularSystems)
 TEST(CoarseSolver, SolvesConsistentSingularSystems)
 {
   const Eigen::MatrixXd D = RandomSemiDefinite(120, 70);
-  const MultiVector b = D * RandomVectors(120, 2);
+  const MultiVector b = D * RandomValues(120, 2);
   MultiVector x;
   CoarseSolver(Sparse(D)).Solve(b, x);
   EXPECT_LT(RelativeDifference(D * x, b), 1e-10);
@@ -78,7 +78,7 @@ TEST(CoarseSolver, SolvesThePureNeumannProblem)
   const SparseMatrix& A = levels[0].A;
   MultiVector b;
   MultiVector x;
-  Multiply(A, RandomVectors(A.rows, 1), b);
+  Multiply(A, RandomValues(A.rows, 1), b);
   CoarseSolver(A).Solve(b, x);
   MultiVector Ax;
   Multiply(A, x, Ax);
@@ -115,7 +115,7 @@ TEST(CoarseSolver, ThousandsOfComponentsAreSolvedOneByOne)
   const SparseMatrix A = rows.Matrix(3 * chains);
   const CoarseSolver solver(A, 2);
   EXPECT_LT(solver.Memory(), std::size_t(10) << 20);
-  const MultiVector exact = RandomVectors(A.rows, 2);
+  const MultiVector exact = RandomValues(A.rows, 2);
   MultiVector b;
   MultiVector one;
   MultiVector two;

@@ -111,8 +111,8 @@ TEST(HatOrdering, ThreadsDoNotChangeABitOfGroupsOfAnySize)
 {
   const SparseMatrix A = HatStiffness(GeodesicSphere(30));
   const auto smoother = MakePatchSmoother(A, GroupByCoupling(A, 0, 27));
-  const MultiVector b = RandomVectors(A.rows, 3, 1);
-  MultiVector one = RandomVectors(A.rows, 3, 2);
+  const MultiVector b = RandomValues(A.rows, 3, 1);
+  MultiVector one = RandomValues(A.rows, 3, 2);
   MultiVector two = one;
   smoother->Sweep(A, b, one, SweepDirection::Forward, 1);
   smoother->Sweep(A, b, two, SweepDirection::Forward, 2);

@@ -16,7 +16,7 @@ namespace
 
 using testing::Dense;
 using testing::DenseSolution;
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::RelativeDifference;
 
 Multigrid Make(const std::vector<testing::Sample>& samples, int depth,
@@ -37,7 +37,7 @@ MultiVector Applied(const SparseMatrix& A, const MultiVector& x)
 std::vector<double> ErrorHistory(const Multigrid& multigrid, int cycles)
 {
   const SparseMatrix& A = multigrid.Matrix();
-  MultiVector x = RandomVectors(A.rows, 1);
+  MultiVector x = RandomValues(A.rows, 1);
   const MultiVector b = MultiVector::Zero(A.rows, 1);
   std::vector<double> history;
   for (int cycle = 0; cycle <= cycles; ++cycle)
@@ -83,7 +83,7 @@ TEST(Multigrid, LevelsObeyTheGalerkinIdentity)
 TEST(Multigrid, OneLevelIsADirectSolve)
 {
   const Multigrid multigrid = Make(testing::SolidCube(2), 2, {}, 1.0, 1.0, 2);
-  const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 2);
+  const MultiVector exact = RandomValues(multigrid.Matrix().rows, 2);
   MultiVector x;
   multigrid.Precondition(Applied(multigrid.Matrix(), exact), x);
   // The condition number is below 1e3.
@@ -98,8 +98,8 @@ TEST(Multigrid, TwoLevelsReproduceTheTextbook)
   options.postSweeps = 1;
   const Multigrid multigrid = Make(testing::SolidCube(2), 2, options);
   const MultigridLevel& fine = multigrid.Levels()[0];
-  const MultiVector b = RandomVectors(fine.A.rows, 1, 1);
-  MultiVector x = RandomVectors(fine.A.rows, 1, 2);
+  const MultiVector b = RandomValues(fine.A.rows, 1, 1);
+  MultiVector x = RandomValues(fine.A.rows, 1, 2);
   MultiVector expected = x;
   fine.smoother->Sweep(fine.A, b, expected, SweepDirection::Forward, 1);
   fine.smoother->Sweep(fine.A, b, expected, SweepDirection::Forward, 1);
@@ -117,7 +117,7 @@ TEST(Multigrid, NestedIterationReproducesTheTextbook)
   ASSERT_EQ(multigrid.Levels().size(), 3u);
   const Eigen::MatrixXd P0 = Dense(multigrid.Levels()[0].prolongation);
   const Eigen::MatrixXd P1 = Dense(multigrid.Levels()[1].prolongation);
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 2);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 2);
   const MultiVector load = P0.transpose() * b;
   MultiVector middle = P1 * DenseSolution(Dense(multigrid.Levels()[2].A), P1.transpose() * load);
   auto levels = testing::SampledHierarchy(testing::SolidCube(3), 3, 1, 1.0, 1.0);
@@ -128,7 +128,7 @@ TEST(Multigrid, NestedIterationReproducesTheTextbook)
   EXPECT_LT(RelativeDifference(x, P0 * middle), 1e-13);
 
   const Multigrid direct = Make(testing::SolidCube(2), 2, {}, 1.0, 1.0, 2);
-  const MultiVector exact = RandomVectors(direct.Matrix().rows, 1);
+  const MultiVector exact = RandomValues(direct.Matrix().rows, 1);
   direct.NestedIteration(Applied(direct.Matrix(), exact), x);
   EXPECT_LT(RelativeDifference(x, exact), 1e-12);
   EXPECT_THROW(direct.NestedIteration(MultiVector::Zero(3, 1), x), InvalidInput);
@@ -163,8 +163,8 @@ TEST_P(Variants, PreconditionerIsSymmetric)
   for (const double mass : { 0.0, 0.01 })
   {
     const Multigrid multigrid = Make(testing::TiltedPlane(5, 2.3, 0.7), 5, Options(), mass);
-    const MultiVector a = RandomVectors(multigrid.Matrix().rows, 1, 1);
-    const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1, 2);
+    const MultiVector a = RandomValues(multigrid.Matrix().rows, 1, 1);
+    const MultiVector b = RandomValues(multigrid.Matrix().rows, 1, 2);
     MultiVector Ba;
     MultiVector Bb;
     multigrid.Precondition(a, Ba);
@@ -180,9 +180,9 @@ TEST_P(Variants, PreconditionerIsSymmetric)
 TEST_P(Variants, PreconditionerIsACycleFromZero)
 {
   const Multigrid multigrid = Make(testing::SolidCube(3), 3, Options());
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 3);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 3);
   MultiVector x = MultiVector::Zero(b.rows(), b.cols());
-  MultiVector Bb = RandomVectors(2, 1); // its previous contents must not matter
+  MultiVector Bb = RandomValues(2, 1); // its previous contents must not matter
   multigrid.Cycle(b, x);
   multigrid.Precondition(b, Bb);
   EXPECT_EQ(x, Bb);
@@ -195,7 +195,7 @@ TEST_P(Variants, ThreadsDoNotChangeABit)
   const Multigrid two = Make(samples, 6, Options(2));
   for (const int width : { 1, 3 })
   {
-    const MultiVector b = RandomVectors(one.Matrix().rows, width);
+    const MultiVector b = RandomValues(one.Matrix().rows, width);
     MultiVector x1;
     MultiVector x2;
     one.Precondition(b, x1);
@@ -209,7 +209,7 @@ TEST_P(Variants, ColumnsDoNotSeeEachOther)
   const Multigrid multigrid = Make(testing::SolidCube(3), 3, Options());
   for (const int width : { 2, 4, 9 })
   {
-    const MultiVector b = RandomVectors(multigrid.Matrix().rows, width);
+    const MultiVector b = RandomValues(multigrid.Matrix().rows, width);
     MultiVector together;
     multigrid.Precondition(b, together);
     for (Id c = 0; c < width; ++c)
@@ -275,7 +275,7 @@ TEST(Multigrid, UpdateEqualsANewHierarchy)
   Multigrid updated = Make(samples, 5, {}, 1.0);
   const Multigrid fresh = Make(samples, 5, {}, 0.01);
   updated.Update([&](std::size_t l, SparseMatrix& A) { A = fresh.Levels()[l].A; });
-  const MultiVector b = RandomVectors(fresh.Matrix().rows, 2);
+  const MultiVector b = RandomValues(fresh.Matrix().rows, 2);
   MultiVector x;
   MultiVector y;
   updated.Precondition(b, x);
@@ -289,7 +289,7 @@ TEST(Multigrid, NoSweepsAtAllIsTheCoarseCorrection)
   options.preSweeps = options.postSweeps = 0;
   const Multigrid multigrid = Make(testing::SolidCube(2), 2, options);
   const Eigen::MatrixXd P = Dense(multigrid.Levels()[0].prolongation);
-  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
+  const MultiVector b = RandomValues(multigrid.Matrix().rows, 1);
   MultiVector x;
   multigrid.Precondition(b, x);
   const MultiVector expected = P * DenseSolution(Dense(multigrid.Levels()[1].A), P.transpose() * b);

@@ -88,12 +88,8 @@ ResidualMeasures Apply(
 /// A box whose faces lie between planes of the grid.
 TriangleMesh TiltedBox(double degrees)
 {
-  TriangleMesh box = Box(1);
-  for (Vec3& point : box.points)
-  {
-    point = point.cwiseProduct(Vec3(1.0, 0.83, 0.41));
-  }
-  return Transform(box, { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0);
+  return Transform(
+    Box(1, { 0, 0, 0 }, { 1.0, 0.83, 0.41 }), { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0);
 }
 
 TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)

@@ -13,7 +13,7 @@ namespace gridfem
 namespace
 {
 
-using testing::RandomVectors;
+using testing::RandomValues;
 
 /// A plane that crosses all slices.
 MultigridLevel SteepPlane()
@@ -64,8 +64,8 @@ TEST_P(SliceGaussSeidel, EqualsSequentialSweepsBitForBit)
   const auto smoother = MakeSliceGaussSeidel(level.A, level.order, sweeps);
   const std::vector<Index> boundaries = SlabBoundaries(level.order.slice, sweeps);
   ASSERT_GE(boundaries.size(), 2u);
-  const MultiVector b = RandomVectors(level.A.rows, 2, 1);
-  MultiVector forward = RandomVectors(level.A.rows, 2, 2);
+  const MultiVector b = RandomValues(level.A.rows, 2, 1);
+  MultiVector forward = RandomValues(level.A.rows, 2, 2);
   MultiVector backward = forward;
   const MultiVector start = forward;
   for (int sweep = 0; sweep < sweeps; ++sweep)
@@ -115,7 +115,7 @@ TEST(SliceGaussSeidelSlabs, CyclesAsTheColoredOneDoes)
   const Multigrid multigrid(
     testing::SampledHierarchy(testing::SolidCube(4), 4, 1, 0.1, 1.0), options);
   const SparseMatrix& A = multigrid.Matrix();
-  MultiVector x = RandomVectors(A.rows, 1);
+  MultiVector x = RandomValues(A.rows, 1);
   const MultiVector zero = MultiVector::Zero(A.rows, 1);
   const auto energy = [&]
   {

@@ -23,7 +23,7 @@ using testing::Dense;
 using testing::DenseSolution;
 using testing::Product;
 using testing::ProductWithTransposed;
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::RelativeDifference;
 using testing::Sparse;
 using Group = std::array<Index, PatchKernelWidth>;
@@ -59,7 +59,7 @@ SparseMatrix Laplacian1D(Index size)
 /// A symmetric, well-conditioned matrix with eigenvalues between 1 and about 2.
 Eigen::MatrixXd RandomSpd(Id size)
 {
-  const Eigen::MatrixXd R = RandomVectors(size, size, 3);
+  const Eigen::MatrixXd R = RandomValues(size, size, 3);
   return Eigen::MatrixXd::Identity(size, size) + ProductWithTransposed(R, R) / double(size);
 }
 
@@ -80,8 +80,8 @@ TEST(GaussSeidel, EqualsTheTextbookOnA1DLaplacian)
     groups.push_back(Single(i));
   }
   const auto smoother = MakeGaussSeidel(A, OneBlock(groups));
-  const MultiVector b = RandomVectors(n, 1, 1);
-  const MultiVector start = RandomVectors(n, 1, 2);
+  const MultiVector b = RandomValues(n, 1, 1);
+  const MultiVector start = RandomValues(n, 1, 2);
   Eigen::VectorXd forward = start;
   Eigen::VectorXd backward = start;
   const auto relax = [&](Eigen::VectorXd& x, Index i)
@@ -102,7 +102,7 @@ TEST(GaussSeidel, VisitsUnknownsInTheOrderOfTheirFirstPatch)
   const SparseMatrix A = Sparse(RandomSpd(7));
   const auto smoother = MakeGaussSeidel(
     A, OneBlock({ { 4, 2, -1, -1, -1, -1, -1, -1 }, { 2, 0, 5, 4, 3, -1, -1, -1 } }));
-  const MultiVector b = RandomVectors(7, 1);
+  const MultiVector b = RandomValues(7, 1);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(7);
   for (const Index i : { 4, 2, 0, 5, 3 }) // 1 and 6 are in no patch
   {
@@ -122,8 +122,8 @@ TEST(GaussSeidel, LeavesRowsWithoutPositiveDiagonalAlone)
   D(3, 3) = -2.0;
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakeGaussSeidel(A, OneBlock({ { 0, 1, 2, 3, 4, -1, -1, -1 } }));
-  const MultiVector start = RandomVectors(5, 2, 1);
-  const MultiVector x = Swept(*smoother, A, RandomVectors(5, 2, 2), start);
+  const MultiVector start = RandomValues(5, 2, 1);
+  const MultiVector x = Swept(*smoother, A, RandomValues(5, 2, 2), start);
   EXPECT_EQ(x.row(1), start.row(1));
   EXPECT_EQ(x.row(3), start.row(3));
   EXPECT_NE(x.row(0), start.row(0));
@@ -134,8 +134,8 @@ TEST(PatchSmoother, SolvesExactlyWhenOnePatchCoversEverything)
   const Eigen::MatrixXd D = RandomSpd(8);
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 7, 0, 3, 2, 6, 5, 1, 4 } }));
-  const MultiVector exact = RandomVectors(8, 3, 1);
-  const MultiVector x = Swept(*smoother, A, Product(D, exact), RandomVectors(8, 3, 2));
+  const MultiVector exact = RandomValues(8, 3, 1);
+  const MultiVector x = Swept(*smoother, A, Product(D, exact), RandomValues(8, 3, 2));
   // Factors are in single precision, 6e-8. The condition number is below 10.
   EXPECT_LT(RelativeDifference(x, exact), 1e-6);
 }
@@ -146,8 +146,8 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(
     A, OneBlock({ { 0, 1, 2, -1, -1, -1, -1, -1 }, { -1, 5, 2, 4, -1, 3, -1, -1 } }));
-  const MultiVector b = RandomVectors(6, 1, 1);
-  Eigen::VectorXd x = RandomVectors(6, 1, 2);
+  const MultiVector b = RandomValues(6, 1, 1);
+  Eigen::VectorXd x = RandomValues(6, 1, 2);
   const MultiVector start = x;
   x.head(3) += DenseSolution(D.topLeftCorner(3, 3), (b - D * x).topRows(3));
   x.tail(4) += DenseSolution(D.bottomRightCorner(4, 4), (b - D * x).bottomRows(4));
@@ -213,8 +213,8 @@ TEST_P(GroupsOfAnySize, AreRelaxedOneAfterTheOther)
   {
     for (const auto direction : { SweepDirection::Forward, SweepDirection::Backward })
     {
-      const MultiVector b = RandomVectors(Unknowns, width, 1);
-      const MultiVector start = RandomVectors(Unknowns, width, 2);
+      const MultiVector b = RandomValues(Unknowns, width, 1);
+      const MultiVector start = RandomValues(Unknowns, width, 2);
       const MultiVector expected = SweptInBlocks(D, groups, b, start, direction);
       // Groups of eight have factors in single precision.
       EXPECT_LT(RelativeDifference(Swept(*smoother, A, b, start, direction), expected),
@@ -264,7 +264,7 @@ TEST_P(GroupsOfAnySize, ThatSinglePrecisionDoesNotHoldAreLeftAlone)
   groups.Add(group);
   const Eigen::MatrixXd D = RandomSpd(size);
   const SparseMatrix huge = Sparse(1e100 * D);
-  const MultiVector exact = RandomVectors(size, 2, 1);
+  const MultiVector exact = RandomValues(size, 2, 1);
   const MultiVector x = Swept(*MakePatchSmoother(huge, OneBlock(groups)), huge,
     1e100 * Product(D, exact), MultiVector::Zero(size, 2));
   EXPECT_LT(RelativeDifference(x, exact), 1e-13);
@@ -289,7 +289,7 @@ TEST(PatchSmoother, RefusesGroupsThatAreTooLarge)
 /// Rank 4 out of 8, plus a rest of size `hidden`: eight functions on a plane act like four.
 Eigen::MatrixXd NearlyDependent(double hidden)
 {
-  const Eigen::MatrixXd R = RandomVectors(8, 8, 1);
+  const Eigen::MatrixXd R = RandomValues(8, 8, 1);
   const Eigen::MatrixXd seen = ProductWithTransposed(R.leftCols(4), R.leftCols(4));
   return seen + hidden * ProductWithTransposed(R.rightCols(4), R.rightCols(4));
 }
@@ -304,7 +304,7 @@ TEST(PatchSmoother, RoundingOfTheFactorsIsHarmlessHoweverDependentFunctionsAre)
     {
       // With a zero right-hand side, x after a sweep is the error. Without double precision for
       // small pivots, half of the energy would be left at 1e-13.
-      const MultiVector start = RandomVectors(8, width, 2);
+      const MultiVector start = RandomValues(8, width, 2);
       const MultiVector x = Swept(*smoother, Sparse(D), MultiVector::Zero(8, width), start);
       const double left = Congruent(D, x).trace() / Congruent(D, start).trace();
       EXPECT_LT(std::sqrt(left), 0.05) << hidden;
@@ -317,7 +317,7 @@ TEST(PatchSmoother, SolvesSingularPatchesOnTheirRange)
   const Eigen::MatrixXd D = NearlyDependent(0.0);
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
-  const MultiVector b = Product(D, RandomVectors(8, 1, 2));
+  const MultiVector b = Product(D, RandomValues(8, 1, 2));
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
   // The four kept pivots are above 1e-2, in single precision.
   EXPECT_LT(RelativeDifference(Product(D, x), b), 1e-5);
@@ -330,7 +330,7 @@ TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
   scale << 1, 1e-8, 1e3, 1e-4, 1, 1e7, 1e-2, 1e5;
   const SparseMatrix A = Sparse(scale.asDiagonal() * D * scale.asDiagonal());
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
-  const MultiVector exact = RandomVectors(8, 1, 1);
+  const MultiVector exact = RandomValues(8, 1, 1);
   const MultiVector b = scale.asDiagonal() * Product(D, exact);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
   EXPECT_LT(RelativeDifference(scale.asDiagonal() * x, exact), 1e-6);
@@ -392,8 +392,8 @@ TEST_P(BothSmoothers, BackwardSweepIsTheAdjointOfTheForwardOne)
   // From a zero start a sweep is x = S b. The backward sweep has to be Sᵀ.
   const MultigridLevel level = Finest(testing::TiltedPlane(4, 1.3, 0.7), 4);
   const auto smoother = Make(level);
-  const MultiVector a = RandomVectors(level.A.rows, 1, 1);
-  const MultiVector b = RandomVectors(level.A.rows, 1, 2);
+  const MultiVector a = RandomValues(level.A.rows, 1, 1);
+  const MultiVector b = RandomValues(level.A.rows, 1, 2);
   const MultiVector zero = MultiVector::Zero(level.A.rows, 1);
   const MultiVector forward = Swept(*smoother, level.A, a, zero);
   const MultiVector backward = Swept(*smoother, level.A, b, zero, SweepDirection::Backward);
@@ -407,8 +407,8 @@ TEST_P(BothSmoothers, ThreadsDoNotChangeABit)
 {
   const MultigridLevel level = Finest(testing::TiltedPlane(6, 1.3, 0.7), 6);
   const auto smoother = Make(level);
-  const MultiVector b = RandomVectors(level.A.rows, GetParam().width, 1);
-  const MultiVector start = RandomVectors(level.A.rows, GetParam().width, 2);
+  const MultiVector b = RandomValues(level.A.rows, GetParam().width, 1);
+  const MultiVector start = RandomValues(level.A.rows, GetParam().width, 2);
   for (const auto direction : { SweepDirection::Forward, SweepDirection::Backward })
   {
     const MultiVector one = Swept(*smoother, level.A, b, start, direction, 1);
@@ -424,8 +424,8 @@ TEST_P(BothSmoothers, ColumnsDoNotSeeEachOther)
 {
   const MultigridLevel level = Finest(testing::SolidCube(3), 3);
   const auto smoother = Make(level);
-  const MultiVector b = RandomVectors(level.A.rows, GetParam().width, 1);
-  const MultiVector start = RandomVectors(level.A.rows, GetParam().width, 2);
+  const MultiVector b = RandomValues(level.A.rows, GetParam().width, 1);
+  const MultiVector start = RandomValues(level.A.rows, GetParam().width, 2);
   const MultiVector together = Swept(*smoother, level.A, b, start);
   for (Id c = 0; c < b.cols(); ++c)
   {
@@ -440,7 +440,7 @@ TEST_P(BothSmoothers, ReduceTheEnergyOfEveryError)
 {
   const MultigridLevel level = Finest(testing::TiltedPlane(4, 0.2, 0.4), 4);
   const auto smoother = Make(level);
-  const MultiVector error = RandomVectors(level.A.rows, GetParam().width, 1);
+  const MultiVector error = RandomValues(level.A.rows, GetParam().width, 1);
   const MultiVector after =
     Swept(*smoother, level.A, MultiVector::Zero(error.rows(), error.cols()), error);
   MultiVector Ae;

@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-using testing::RandomVectors;
+using testing::RandomValues;
 using testing::RelativeDifference;
 
 /// The levels of a mesh, with smoothers.
@@ -46,7 +46,7 @@ std::vector<TriangleMesh> Meshes()
 MultiVector LoadOf(const SparseMatrix& A, Id columns)
 {
   MultiVector b;
-  Multiply(A, RandomVectors(A.rows, columns, 5), b);
+  Multiply(A, RandomValues(A.rows, columns, 5), b);
   return b;
 }
 
@@ -80,7 +80,7 @@ TEST(StencilSmoother, SweepsAsInDoublePrecision)
       EXPECT_TRUE(smoother->IsSingle() && smoother->HasSingleFactors());
       for (const auto direction : { SweepDirection::Forward, SweepDirection::Backward })
       {
-        const MultiVector exact = RandomVectors(level.A.rows, 1, 4);
+        const MultiVector exact = RandomValues(level.A.rows, 1, 4);
         const double inDouble = EnergyAfter(level, *level.smoother, exact, direction);
         const double inSingle = EnergyAfter(level, *smoother, exact, direction);
         // In the worst case, single precision leaves 1e-7 / sqrt(1e-6) of a direction. Patches that
@@ -126,7 +126,7 @@ TEST(StencilSmoother, BackwardIsTheAdjointOfForward)
     ASSERT_TRUE(smoother);
     const MultiVector a = LoadOf(level.A, 1);
     MultiVector b;
-    Multiply(level.A, RandomVectors(level.A.rows, 1, 8), b);
+    Multiply(level.A, RandomValues(level.A.rows, 1, 8), b);
     MultiVector forward = MultiVector::Zero(a.rows(), 1);
     MultiVector backward = forward;
     smoother->Sweep(level.A, a, forward, SweepDirection::Forward, 1);
@@ -180,7 +180,7 @@ TEST(StencilSmoother, CyclesFromAnyStartReachDoublePrecision)
   const Multigrid multigrid = Hierarchy(Meshes()[2], 4, FactorPrecision::Mixed);
   ASSERT_TRUE(multigrid.Levels().front().smoother->IsSingle());
   const MultiVector b = LoadOf(multigrid.Matrix(), 1);
-  MultiVector x = RandomVectors(b.rows(), 1, 3);
+  MultiVector x = RandomValues(b.rows(), 1, 3);
   for (int cycle = 0; cycle < 60; ++cycle)
   {
     multigrid.Cycle(b, x);
@@ -212,7 +212,7 @@ TEST(StencilSmoother, RelaxesSomeOfThePatches)
     const auto inSingle = MakeStencilSmoother(level.A, level.order);
     ASSERT_TRUE(inSingle);
     const auto inDouble = MakePatchSmoother(level.A, level.order, 1, FactorPrecision::Double);
-    const MultiVector exact = RandomVectors(level.A.rows, 1, 4);
+    const MultiVector exact = RandomValues(level.A.rows, 1, 4);
     const double single = EnergyAfter(level, *inSingle, exact, SweepDirection::Forward);
     EXPECT_LE(single, 1.001 * EnergyAfter(level, *inDouble, exact, SweepDirection::Forward));
   }
@@ -274,7 +274,7 @@ TEST(StencilSmoother, FunctionsOfAnySizeCount)
       sizeOf[k] = size;
     }
     SparseMatrix A = level.A;
-    MultiVector exact = RandomVectors(A.rows, 3, 4);
+    MultiVector exact = RandomValues(A.rows, 3, 4);
     for (Index row = 0; row < A.rows; ++row)
     {
       exact.row(row) /= sizeOf[row]; // as much energy as the others

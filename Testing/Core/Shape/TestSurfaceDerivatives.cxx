@@ -144,11 +144,8 @@ BoundaryErrors OnTheRimOfACylinder(bool isOnHats, bool isOnPoints, int depth)
 {
   const int along = 1 << depth >> 1; // the diameter, 2, fills the cube
   const int around = 6 * along;
-  TriangleMesh cylinder = FlatRectangle(around, along, 2.0 * std::acos(-1.0), 1.0);
-  for (Vec3& p : cylinder.points)
-  {
-    p = Vec3(std::cos(p[0]), std::sin(p[0]), p[1]);
-  }
+  TriangleMesh cylinder = Mapped(FlatRectangle(around, along, 2.0 * std::acos(-1.0), 1.0),
+    [](const Vec3& p) { return Vec3(std::cos(p[0]), std::sin(p[0]), p[1]); });
   for (auto& triangle : cylinder.triangles) // closes the seam
   {
     for (Id& point : triangle)

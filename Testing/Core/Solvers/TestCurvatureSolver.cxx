@@ -1,6 +1,7 @@
 // Curvatures of a surface, which need functions only where normals are smoothed.
 #include "Solvers/CurvatureSolver.h"
 
+#include "AtDepth.h"
 #include "Base/Errors.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
@@ -18,12 +19,7 @@ std::shared_ptr<const TriangleMesh> Sphere(double radius)
   return std::make_shared<const TriangleMesh>(GeodesicSphere(12, radius));
 }
 
-SurfaceOptions At(int depth)
-{
-  SurfaceOptions options = CurvatureSolver::SurfaceDefaults();
-  options.space.depth = depth;
-  return options;
-}
+const SurfaceOptions AtDepth4 = AtDepth<CurvatureSolver>(4);
 
 } // namespace
 
@@ -36,7 +32,8 @@ TEST(CurvatureSolver, KnowsTheCurvaturesOfASphere)
   {
     CurvatureSolver::Options options;
     options.smoothingScale = scale;
-    const auto result = CurvatureSolver::Solve(Sphere(Radius), options, At(5));
+    const auto result =
+      CurvatureSolver::Solve(Sphere(Radius), options, AtDepth<CurvatureSolver>(5));
     ASSERT_EQ(result.numbers.cols(), static_cast<Id>(CurvatureSolver::Numbers.size()));
     for (Id column = 0; column < result.numbers.cols(); ++column)
     {
@@ -67,7 +64,7 @@ TEST(CurvatureSolver, PointsOffTheSurfaceCountInNothing)
 TEST(CurvatureSolver, FitsAgainOnlyAfterAChangeThatCounts)
 {
   Stages stages;
-  LocalSurface surface(stages, Sphere(1.0), At(4));
+  LocalSurface surface(stages, Sphere(1.0), AtDepth4);
   CurvatureSolver solver;
   CurvatureSolver::Options options;
   solver.Update(surface, options, {});
@@ -83,7 +80,7 @@ TEST(CurvatureSolver, FitsAgainOnlyAfterAChangeThatCounts)
   }
   EXPECT_EQ(stages.Runs(SolveStage), 3);
   EXPECT_EQ(stages.Runs(SystemStage), 1);
-  const MultiVector oneShot = CurvatureSolver::Solve(Sphere(1.0), options, At(4)).numbers;
+  const MultiVector oneShot = CurvatureSolver::Solve(Sphere(1.0), options, AtDepth4).numbers;
   EXPECT_EQ(solver.Update(surface, options, {}).numbers, oneShot);
 }
 
@@ -91,9 +88,9 @@ TEST(CurvatureSolver, RefusesANegativeScaleAndWarnsOfAnEarlyEnd)
 {
   CurvatureSolver::Options options;
   options.smoothingScale = -1.0;
-  EXPECT_THROW(CurvatureSolver::Solve(Sphere(1.0), options, At(4)), InvalidInput);
+  EXPECT_THROW(CurvatureSolver::Solve(Sphere(1.0), options, AtDepth4), InvalidInput);
   options.smoothingScale = 0.5;
   options.equation.solve.tolerance = 1e-12;
   options.equation.solve.maximumIterations = 1;
-  EXPECT_EQ(CurvatureSolver::Solve(Sphere(1.0), options, At(4)).warnings.size(), 1u);
+  EXPECT_EQ(CurvatureSolver::Solve(Sphere(1.0), options, AtDepth4).warnings.size(), 1u);
 }

@@ -1,5 +1,6 @@
 // Compares the solver with exact decay and the exact kernel. Tests which of its steps a change
 // repeats.
+#include "AtDepth.h"
 #include "EachOption.h"
 #include "Meshes.h"
 #include "Solvers/DiffusionSolver.h"
@@ -27,8 +28,7 @@ DiffusionSolver::Input HeightOn(const TriangleMesh& mesh)
 
 SurfaceOptions InWorldUnits(int depth)
 {
-  SurfaceOptions options = DiffusionSolver::SurfaceDefaults();
-  options.space.depth = depth;
+  SurfaceOptions options = AtDepth<DiffusionSolver>(depth);
   options.parameterUnits = ParameterUnits::World;
   return options;
 }

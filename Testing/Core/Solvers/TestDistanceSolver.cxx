@@ -1,6 +1,7 @@
 // Distances in one shot and in steps, and the stages that a changed option repeats.
 #include "Solvers/DistanceSolver.h"
 
+#include "AtDepth.h"
 #include "Base/Errors.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
@@ -19,12 +20,7 @@ namespace
 
 const auto Sphere = std::make_shared<const TriangleMesh>(GeodesicSphere(16));
 
-SurfaceOptions AtDepth(int depth)
-{
-  SurfaceOptions options = DistanceSolver::SurfaceDefaults();
-  options.space.depth = depth;
-  return options;
-}
+const SurfaceOptions AtDepth4 = AtDepth<DistanceSolver>(4);
 
 /// 1 where z is above a height, else 0.
 GivenField Cap(const std::string& name, double height)
@@ -71,7 +67,7 @@ protected:
 
 private:
   Stages stages_;
-  LocalSurface surface_{ stages_, Sphere, AtDepth(4) };
+  LocalSurface surface_{ stages_, Sphere, AtDepth4 };
   DistanceSolver solver_;
 };
 
@@ -82,7 +78,7 @@ TEST(DistanceSolver, TheAngleOnASphere)
 {
   DistanceSolver::Input input;
   input.ids = { 7 };
-  const DistanceSolver::Result result = DistanceSolver::Solve(Sphere, input, {}, AtDepth(4));
+  const DistanceSolver::Result result = DistanceSolver::Solve(Sphere, input, {}, AtDepth4);
   ASSERT_TRUE(result.report.converged);
   for (std::size_t point = 0; point < Sphere->points.size(); ++point)
   {
@@ -96,7 +92,7 @@ TEST_F(Stepwise, OneShotGivesTheSameBits)
   input.ids = { 3, 50 };
   options.nearestSource = true;
   this->Update();
-  const DistanceSolver::Result once = DistanceSolver::Solve(Sphere, input, options, AtDepth(4));
+  const DistanceSolver::Result once = DistanceSolver::Solve(Sphere, input, options, AtDepth4);
   EXPECT_EQ(once.atPoints, result->atPoints);
   EXPECT_EQ(once.nearest, result->nearest);
   EXPECT_EQ(result->nearest[3], 3);
@@ -184,7 +180,7 @@ std::string WarningOf(const TriangleMesh& mesh, const DistanceSolver::Input& inp
   const DistanceSolver::Options& options = {})
 {
   const DistanceSolver::Result result =
-    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), input, options, AtDepth(4));
+    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), input, options, AtDepth4);
   EXPECT_LE(result.warnings.size(), 1u);
   return result.warnings.empty() ? std::string() : result.warnings.front();
 }
@@ -202,7 +198,7 @@ TriangleMesh Crumb()
 /// The first point is the point with the least id, for any order of the triangles.
 TEST(DistanceSolver, RefusesAStabilizationThatMakesTheHeatOscillate)
 {
-  SurfaceOptions options = AtDepth(3);
+  SurfaceOptions options = AtDepth<DistanceSolver>(3);
   EXPECT_NO_THROW(DistanceSolver::Solve(Sphere, {}, {}, options));
   options.choice.normalStabilization = 0.05;
   EXPECT_THROW(DistanceSolver::Solve(Sphere, {}, {}, options), InvalidInput);
@@ -213,7 +209,7 @@ TEST(DistanceSolver, StartsAtTheFirstPointWhereNoSourceIsChosen)
   TriangleMesh mesh = *Sphere;
   std::reverse(mesh.triangles.begin(), mesh.triangles.end());
   const DistanceSolver::Result result =
-    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, {}, AtDepth(4));
+    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, {}, AtDepth4);
   EXPECT_EQ((result.atPoints.array() == 0.0).count(), 1);
   EXPECT_EQ(result.atPoints(0, 0), 0.0);
   EXPECT_TRUE(result.warnings.empty());
@@ -246,7 +242,7 @@ TEST(DistanceSolver, NamesALabelThatIsNowhereOrEverywhere)
     options.insideLabel = label;
     try
     {
-      DistanceSolver::Solve(Sphere, input, options, AtDepth(4));
+      DistanceSolver::Solve(Sphere, input, options, AtDepth4);
     }
     catch (const InvalidInput& error)
     {

@@ -1,7 +1,9 @@
 // Compares patterns, waves and transport with exact solutions, and measures order in time and
 // conservation. Tests which steps of the solver a change repeats.
+#include "AtDepth.h"
 #include "EachOption.h"
 #include "Equations/Reactions.h"
+#include "ExpectOne.h"
 #include "Largest.h"
 #include "Meshes.h"
 #include "Solvers/DynamicsSolver.h"
@@ -29,8 +31,7 @@ Mesh Shared(TriangleMesh mesh)
 
 SurfaceOptions InWorld(int depth, FunctionKind kind = FunctionKind::Grid)
 {
-  SurfaceOptions options = DynamicsSolver::SurfaceDefaults();
-  options.space.depth = depth;
+  SurfaceOptions options = AtDepth<DynamicsSolver>(depth);
   options.choice.kind = kind;
   options.parameterUnits = ParameterUnits::World;
   return options;
@@ -387,8 +388,7 @@ TEST(DynamicsSolver, GrowsSpotsOfThePatternLengthFromAnySeed)
   for (const int seed : { 1, 2 })
   {
     options.seed = seed;
-    SurfaceOptions surface = DynamicsSolver::SurfaceDefaults();
-    surface.space.depth = 5;
+    SurfaceOptions surface = AtDepth<DynamicsSolver>(5);
     const auto result = DynamicsSolver::Solve(mesh, {}, options, surface);
     const auto u = result.frames.back().atPoints.col(0);
     EXPECT_LT(u.minCoeff<Eigen::PropagateNaN>(), 0.4);
@@ -722,8 +722,7 @@ TEST(DynamicsSolver, TellsOfReactionsThatAreUndefined)
     options.equation.solve.maximumIterations = iterations;
     const auto result = DynamicsSolver::Solve(mesh, input, options, InWorld(3));
     EXPECT_TRUE(result.frames[12].atPoints.hasNaN());
-    ASSERT_EQ(result.warnings.size(), 1u) << iterations;
-    EXPECT_NE(result.warnings[0].find("undefined for some values"), std::string::npos);
+    ExpectOne(result.warnings, "undefined for some values");
   }
 }
 

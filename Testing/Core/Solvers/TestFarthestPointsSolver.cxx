@@ -1,6 +1,7 @@
 // Points that are spread evenly, and the cost of more or fewer points.
 #include "Solvers/FarthestPointsSolver.h"
 
+#include "AtDepth.h"
 #include "Base/Errors.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
@@ -21,12 +22,7 @@ constexpr double Cell = 2.0 / 16; // of the sphere at the depth below
 
 const auto Sphere = std::make_shared<const TriangleMesh>(GeodesicSphere(16));
 
-SurfaceOptions AtDepth4()
-{
-  SurfaceOptions options = FarthestPointsSolver::SurfaceDefaults();
-  options.space.depth = 4;
-  return options;
-}
+const SurfaceOptions AtDepth4 = AtDepth<FarthestPointsSolver>(4);
 
 FarthestPointsSolver::Options Points(int number, int first = -1)
 {
@@ -48,7 +44,7 @@ double Angle(Id a, Id b)
 TEST(FarthestPointsSolver, OnASphere)
 {
   const FarthestPointsSolver::Result result =
-    FarthestPointsSolver::Solve(Sphere, Points(4, 20), AtDepth4());
+    FarthestPointsSolver::Solve(Sphere, Points(4, 20), AtDepth4);
   ASSERT_EQ(result.points.size(), 4u);
   EXPECT_EQ(result.points[0], 20);
   EXPECT_NEAR(Angle(result.points[0], result.points[1]), Pi, 3 * Cell);
@@ -61,7 +57,7 @@ TEST(FarthestPointsSolver, OnASphere)
 TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
 {
   const FarthestPointsSolver::Result result =
-    FarthestPointsSolver::Solve(Sphere, Points(20), AtDepth4());
+    FarthestPointsSolver::Solve(Sphere, Points(20), AtDepth4);
   for (const Id a : result.points)
   {
     EXPECT_EQ(result.atPoints(a, 0), 0.0);
@@ -73,6 +69,8 @@ TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
   }
   for (Id point = 0; point < result.atPoints.rows(); ++point)
   {
+    const auto& points = result.points;
+    EXPECT_EQ(std::count(points.begin(), points.end(), result.nearest[point]), 1);
     EXPECT_NEAR(result.atPoints(point, 0), Angle(point, result.nearest[point]), 2 * Cell);
     EXPECT_LE(result.atPoints(point, 0), result.radius);
   }
@@ -81,14 +79,14 @@ TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
 TEST(FarthestPointsSolver, MoreAndFewerPointsAreThoseOfOneShot)
 {
   Stages stages;
-  LocalSurface surface(stages, Sphere, AtDepth4());
+  LocalSurface surface(stages, Sphere, AtDepth4);
   FarthestPointsSolver solver;
   const auto solves = [&](const FarthestPointsSolver::Options& options)
   {
     const auto before = stages.Runs(SolveStage);
     const FarthestPointsSolver::Result& result = solver.Update(surface, options);
     const FarthestPointsSolver::Result once =
-      FarthestPointsSolver::Solve(Sphere, options, AtDepth4());
+      FarthestPointsSolver::Solve(Sphere, options, AtDepth4);
     EXPECT_EQ(result.points, once.points);
     EXPECT_EQ(result.atPoints, once.atPoints);
     EXPECT_EQ(result.nearest, once.nearest);
@@ -96,7 +94,9 @@ TEST(FarthestPointsSolver, MoreAndFewerPointsAreThoseOfOneShot)
   };
   EXPECT_EQ(solves(Points(3)), 1);
   EXPECT_EQ(solves(Points(3)), 0);
+  const std::vector<Id> three = solver.GetResult().points;
   EXPECT_EQ(solves(Points(5)), 1);
+  EXPECT_TRUE(std::equal(three.begin(), three.end(), solver.GetResult().points.begin()));
   EXPECT_EQ(solves(Points(2)), 1);
   EXPECT_EQ(solves(Points(2)), 0);
   EXPECT_EQ(solves(Points(2, 9)), 1);
@@ -107,7 +107,7 @@ TEST(FarthestPointsSolver, MoreAndFewerPointsAreThoseOfOneShot)
 TEST(FarthestPointsSolver, GoesOnAfterAnAbort)
 {
   Stages stages;
-  LocalSurface surface(stages, Sphere, AtDepth4());
+  LocalSurface surface(stages, Sphere, AtDepth4);
   FarthestPointsSolver solver;
   const Progress abort([](double fraction) { return fraction < 0.8; });
   EXPECT_THROW(solver.Update(surface, Points(10), { 0, abort }), Aborted);
@@ -136,10 +136,10 @@ TEST(FarthestPointsSolver, ComponentsAndTheLastPoint)
   const auto mesh = std::make_shared<const TriangleMesh>(
     Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.0, 1.0, { 4, 0, 0 })));
   const auto half = static_cast<Id>(sphere.points.size());
-  const FarthestPointsSolver::Result two = FarthestPointsSolver::Solve(mesh, Points(2), AtDepth4());
+  const FarthestPointsSolver::Result two = FarthestPointsSolver::Solve(mesh, Points(2), AtDepth4);
   EXPECT_TRUE(two.atPoints.allFinite());
   EXPECT_NE(two.points[0] < half, two.points[1] < half);
-  FarthestPointsSolver::Result all = FarthestPointsSolver::Solve(mesh, Points(100), AtDepth4());
+  FarthestPointsSolver::Result all = FarthestPointsSolver::Solve(mesh, Points(100), AtDepth4);
   std::sort(all.points.begin(), all.points.end());
   EXPECT_EQ(all.points.size(), mesh->points.size());
   EXPECT_TRUE(std::adjacent_find(all.points.begin(), all.points.end()) == all.points.end());
@@ -156,7 +156,7 @@ TEST(FarthestPointsSolver, ComponentsWithoutAPointHaveNoDistance)
   const auto mesh = std::make_shared<const TriangleMesh>(three);
   const auto part = static_cast<Id>(sphere.points.size());
   Stages stages;
-  LocalSurface surface(stages, mesh, AtDepth4());
+  LocalSurface surface(stages, mesh, AtDepth4);
   FarthestPointsSolver solver;
   for (const int number : { 1, 2, 3, 4, 1 })
   {
@@ -182,5 +182,5 @@ TEST(FarthestPointsSolver, ComponentsWithoutAPointHaveNoDistance)
 TEST(FarthestPointsSolver, RefusesAFirstPointThatIsNone)
 {
   const int beyond = static_cast<int>(Sphere->points.size());
-  EXPECT_THROW(FarthestPointsSolver::Solve(Sphere, Points(2, beyond), AtDepth4()), InvalidInput);
+  EXPECT_THROW(FarthestPointsSolver::Solve(Sphere, Points(2, beyond), AtDepth4), InvalidInput);
 }

@@ -2,6 +2,7 @@
 // change repeats.
 #include "Solvers/GradientSolver.h"
 
+#include "AtDepth.h"
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
 #include "Meshes.h"
@@ -28,12 +29,7 @@ std::shared_ptr<const TriangleMesh> Sphere()
   return std::make_shared<const TriangleMesh>(GeodesicSphere(12));
 }
 
-SurfaceOptions At(int depth)
-{
-  SurfaceOptions options = GradientSolver::SurfaceDefaults();
-  options.space.depth = depth;
-  return options;
-}
+const SurfaceOptions AtDepth4 = AtDepth<GradientSolver>(4);
 
 GivenField VectorsAt(const TriangleMesh& mesh, const std::function<Vec3(const Vec3&)>& vector)
 {
@@ -78,7 +74,8 @@ TEST(GradientSolver, OfALinearFieldIsItsSlope)
   GradientSolver::Options options;
   options.equation.solve.tolerance = 1e-8;
   options.equation.accuracy = 0.0;
-  const auto result = GradientSolver::Solve(sheet, { GivenField::Of("f", field) }, options, At(4));
+  const auto result =
+    GradientSolver::Solve(sheet, { GivenField::Of("f", field) }, options, AtDepth4);
   ASSERT_EQ(result.derivatives.size(), 2u);
   const Derived& gradient = Find(result.derivatives, "Gradient");
   for (const MultiVector& rows : { gradient.atPoints, gradient.onTriangles })
@@ -104,7 +101,7 @@ TEST(GradientSolver, DoesNotSeeALargeConstant)
   {
     Field raised = field;
     raised.values.array() += constant;
-    return GradientSolver::Solve(sphere, { GivenField::Of("f", raised) }, {}, At(4)).derivatives;
+    return GradientSolver::Solve(sphere, { GivenField::Of("f", raised) }, {}, AtDepth4).derivatives;
   };
   const std::vector<Derived> plain = derivativesOf(0.0);
   const std::vector<Derived> raised = derivativesOf(1e9);
@@ -121,7 +118,7 @@ TEST(GradientSolver, TakesASlopeForAGradientWithoutRotation)
   options.hodgeDecomposition = true;
   const auto sphere = Sphere();
   const auto result =
-    GradientSolver::Solve(sphere, { VectorsAt(*sphere, &Upwards) }, options, At(4));
+    GradientSolver::Solve(sphere, { VectorsAt(*sphere, &Upwards) }, options, AtDepth4);
   for (std::size_t point = 0; point < sphere->points.size(); ++point)
   {
     const auto row = static_cast<Id>(point);
@@ -136,7 +133,7 @@ TEST(GradientSolver, RunsOnlyTheStageThatAChangeAsksFor)
 {
   const auto sphere = Sphere();
   Stages stages;
-  LocalSurface surface(stages, sphere, At(4));
+  LocalSurface surface(stages, sphere, AtDepth4);
   GradientSolver solver;
   GradientSolver::Input input{ VectorsAt(*sphere, &Upwards) };
   GradientSolver::Options options;
@@ -154,7 +151,7 @@ TEST(GradientSolver, RunsOnlyTheStageThatAChangeAsksFor)
   EXPECT_EQ(stages.Runs(HodgeStage), 2);
   EXPECT_EQ(stages.Runs(SystemStage), 1);
 
-  const auto oneShot = GradientSolver::Solve(sphere, input, options, At(4));
+  const auto oneShot = GradientSolver::Solve(sphere, input, options, AtDepth4);
   ASSERT_EQ(result.derivatives.size(), oneShot.derivatives.size());
   for (std::size_t k = 0; k < result.derivatives.size(); ++k)
   {
@@ -167,5 +164,5 @@ TEST(GradientSolver, RefusesToTakeCoordinatesApart)
 {
   GradientSolver::Options options;
   options.hodgeDecomposition = true;
-  EXPECT_THROW(GradientSolver::Solve(Sphere(), {}, options, At(4)), InvalidInput);
+  EXPECT_THROW(GradientSolver::Solve(Sphere(), {}, options, AtDepth4), InvalidInput);
 }

@@ -1,5 +1,6 @@
 // Held points next to each other, with edges between them: the solvers meet their values to the
 // tolerance, and leave the rest of the solution as accurate as without them.
+#include "AtDepth.h"
 #include "Largest.h"
 #include "Meshes.h"
 
@@ -55,8 +56,7 @@ DiffusionSolver::Step HeldCap(const std::shared_ptr<const TriangleMesh>& mesh, i
   DiffusionSolver::Options options;
   options.diffusionTime = 0.02;
   options.equation.solve.tolerance = tolerance;
-  SurfaceOptions asked = DiffusionSolver::SurfaceDefaults();
-  asked.space.depth = depth;
+  SurfaceOptions asked = AtDepth<DiffusionSolver>(depth);
   asked.choice.kind = kind;
   return DiffusionSolver::Solve(mesh, input, options, asked).steps.front();
 }
@@ -81,13 +81,7 @@ TEST(HeldValues, OfACapAreMet)
 
 TriangleMesh Disc(int fineness)
 {
-  TriangleMesh disc = FlatRectangle(fineness, fineness, 2.0, 2.0);
-  for (Vec3& p : disc.points) // every square ring becomes a round one
-  {
-    const Vec3 q = p - Vec3(1, 1, 0);
-    p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / q.norm())) : q;
-  }
-  return Transform(disc, { 1, 2, 3 }, 0.0, 1.5);
+  return Transform(Disk(fineness), { 1, 2, 3 }, 0.0, 1.5);
 }
 
 /// The largest error of x² - y² from its values on the boundary.
@@ -136,8 +130,7 @@ TEST(HeldValues, AreForgottenAfterAMaskThatHoldsNone)
   const MultiVector values = WavesOn(*mesh);
   DiffusionSolver::Input input;
   input.values = GivenField::Of("f", { FieldAssociation::Points, values });
-  SurfaceOptions asked = DiffusionSolver::SurfaceDefaults();
-  asked.space.depth = 4;
+  SurfaceOptions asked = AtDepth<DiffusionSolver>(4);
   DiffusionSolver::Options options;
   options.diffusionTime = 0.1;
   options.equation.solve.tolerance = 1e-8; // the same with and without a mask

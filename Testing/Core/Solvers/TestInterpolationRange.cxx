@@ -2,6 +2,7 @@
 // is given.
 #include "Solvers/InterpolationSolver.h"
 
+#include "AtDepth.h"
 #include "Grid/SurfaceEdges.h"
 #include "Largest.h"
 #include "Meshes.h"
@@ -32,8 +33,7 @@ PointValues ValuesAt(const std::vector<Id>& points, const std::function<double(I
 InterpolationSolver::Result Interpolate(
   const TriangleMesh& mesh, const PointValues& known, FunctionKind kind, int depth, int threads = 0)
 {
-  SurfaceOptions surface = InterpolationSolver::SurfaceDefaults();
-  surface.space.depth = depth;
+  SurfaceOptions surface = AtDepth<InterpolationSolver>(depth);
   surface.space.threads = threads;
   surface.choice.kind = kind;
   InterpolationSolver::Input input;
@@ -115,19 +115,6 @@ std::vector<Id> BoundaryPoints(const TriangleMesh& mesh)
   return EndsOf(FindSurfaceEdges(mesh, true).boundary, mesh);
 }
 
-/// A disk of radius 1 in the plane z = 0.
-TriangleMesh Disk(int rings)
-{
-  TriangleMesh disk = FlatRectangle(2 * rings, 2 * rings, 2.0, 2.0);
-  for (Vec3& p : disk.points)
-  {
-    const Vec3 q = p - Vec3(1.0, 1.0, 0.0);
-    const double side = std::max(std::abs(q[0]), std::abs(q[1]));
-    p = q.norm() > 0.0 ? Vec3(side / q.norm() * q) : Vec3(Vec3::Zero());
-  }
-  return disk;
-}
-
 } // namespace
 
 TEST_P(InterpolationRange, HoldsForAnyValues)
@@ -200,13 +187,10 @@ TEST(InterpolationRate, IsNearTwoForAWholeBoundary)
 {
   const auto harmonic = [](double x, double y)
   { return std::exp(0.5 * M_PI * x) * std::sin(0.5 * M_PI * y); };
-  TriangleMesh square = FlatRectangle(40, 40);
-  TriangleMesh cylinder = square;
-  for (Vec3& p : cylinder.points)
-  {
-    p = { std::cos(p[0]), std::sin(p[0]), p[1] };
-  }
-  const TriangleMesh disk = Disk(24);
+  const TriangleMesh square = FlatRectangle(40, 40);
+  const TriangleMesh cylinder =
+    Mapped(square, [](const Vec3& p) { return Vec3(std::cos(p[0]), std::sin(p[0]), p[1]); });
+  const TriangleMesh disk = Disk(48);
   struct Patch
   {
     const char* name;

@@ -50,12 +50,7 @@ Solver::Result Flatten(const TriangleMesh& mesh, MapType kind)
 /// Moves every point of a rectangle with [0, 1] along both sides.
 TriangleMesh Bent(int nx, int ny, const std::function<Vec3(double, double)>& place)
 {
-  TriangleMesh mesh = FlatRectangle(nx, ny);
-  for (Vec3& point : mesh.points)
-  {
-    point = place(point[0], point[1]);
-  }
-  return mesh;
+  return Mapped(FlatRectangle(nx, ny), [&](const Vec3& p) { return place(p[0], p[1]); });
 }
 
 /// A part of a sphere around its pole. Lines of the square become rays and circles.

@@ -1,4 +1,5 @@
 // The solver against an exact solution, and the stages that a change repeats.
+#include "AtDepth.h"
 #include "EachOption.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
@@ -32,13 +33,6 @@ std::shared_ptr<const TriangleMesh> Bowl()
                     [&](const std::array<Id, 3>& t) { return mesh.points[t[0]].x() > 0.6; }),
     triangles.end());
   return std::make_shared<const TriangleMesh>(std::move(mesh));
-}
-
-SurfaceOptions AtDepth(int depth)
-{
-  SurfaceOptions options;
-  options.space.depth = depth;
-  return options;
 }
 
 PoissonSolver::Options Exactly()

@@ -1,4 +1,5 @@
 // Two scans of a sphere, one of them brighter, become one coloring.
+#include "AtDepth.h"
 #include "EachOption.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"
@@ -36,12 +37,7 @@ StitchSolver::Input TwoScans(const TriangleMesh& mesh)
     GivenField::Of("labels", { FieldAssociation::Points, labels }) };
 }
 
-SurfaceOptions AtDepth(int depth)
-{
-  SurfaceOptions options = StitchSolver::SurfaceDefaults();
-  options.space.depth = depth;
-  return options;
-}
+const SurfaceOptions AtDepth4 = AtDepth<StitchSolver>(4);
 
 StitchSolver::Options KeepingScan(int label)
 {
@@ -64,8 +60,10 @@ TEST(StitchSolver, TheReferenceKeepsItsColorsAndTheOtherScanFollows)
   const auto mesh = Ball();
   const StitchSolver::Input input = TwoScans(*mesh);
   const MultiVector z = PointCoordinates(*mesh).col(2);
-  const MultiVector dark = StitchSolver::Solve(mesh, input, KeepingScan(3), AtDepth(5)).values;
-  const MultiVector bright = StitchSolver::Solve(mesh, input, KeepingScan(7), AtDepth(5)).values;
+  const MultiVector dark =
+    StitchSolver::Solve(mesh, input, KeepingScan(3), AtDepth<StitchSolver>(5)).values;
+  const MultiVector bright =
+    StitchSolver::Solve(mesh, input, KeepingScan(7), AtDepth<StitchSolver>(5)).values;
   // On the seam, a strip of triangles of side 0.07, no gradient is known.
   EXPECT_LT(Largest(dark - z), 0.1);
   EXPECT_LT(Largest(bright - z - MultiVector::Ones(z.rows(), 1)), 0.1);
@@ -89,7 +87,8 @@ TEST(StitchSolver, BlendWidthIsAPartOfTheLongestSide)
   {
     StitchSolver::Options options = KeepingScan(3);
     options.blendWidth = blendWidth;
-    const MultiVector values = StitchSolver::Solve(mesh, input, options, AtDepth(depth)).values;
+    const MultiVector values =
+      StitchSolver::Solve(mesh, input, options, AtDepth<StitchSolver>(depth)).values;
     double sum = 0.0;
     int count = 0;
     for (Id point = 0; point < points.rows(); ++point)
@@ -112,7 +111,7 @@ TEST(StitchSolver, EachOptionChangesTheResultAsInANewSolver)
   const StitchSolver::Input input = TwoScans(*mesh);
   const StitchSolver::Options options = KeepingScan(3);
   Stages stages;
-  LocalSurface surface(stages, mesh, AtDepth(4));
+  LocalSurface surface(stages, mesh, AtDepth4);
   StitchSolver solver;
   const MultiVector first = solver.Update(surface, input, options, {}).values;
   for (const auto& [name, next] : EachChanged(options))
@@ -120,7 +119,7 @@ TEST(StitchSolver, EachOptionChangesTheResultAsInANewSolver)
     StitchSolver::Options changed = next;
     changed.referenceLabel = name == "ReferenceLabel" ? 7 : 3; // 4 is no scan
     const MultiVector here = solver.Update(surface, input, changed, {}).values;
-    EXPECT_EQ(here, StitchSolver::Solve(mesh, input, changed, AtDepth(4)).values) << name;
+    EXPECT_EQ(here, StitchSolver::Solve(mesh, input, changed, AtDepth4).values) << name;
     EXPECT_NE(here, first) << name;
     EXPECT_EQ(solver.Update(surface, input, options, {}).values, first) << name;
   }
@@ -131,7 +130,7 @@ TEST(StitchSolver, OtherColorsKeepTheCut)
   const auto mesh = Ball();
   StitchSolver::Input input = TwoScans(*mesh);
   Stages stages;
-  LocalSurface surface(stages, mesh, AtDepth(4));
+  LocalSurface surface(stages, mesh, AtDepth4);
   StitchSolver solver;
   solver.Update(surface, input, KeepingScan(3), {});
   input.colors =
@@ -145,10 +144,10 @@ TEST(StitchSolver, RefusesLabelsAndScansThatAreNone)
 {
   const auto mesh = Ball();
   StitchSolver::Input input = TwoScans(*mesh);
-  EXPECT_THROW(StitchSolver::Solve(mesh, input, KeepingScan(5), AtDepth(4)), InvalidInput);
+  EXPECT_THROW(StitchSolver::Solve(mesh, input, KeepingScan(5), AtDepth4), InvalidInput);
   input.labels = GivenField::Of(
     "halves", { FieldAssociation::Points,
                 MultiVector::Constant(static_cast<Id>(mesh->points.size()), 1, 0.5) });
-  EXPECT_THROW(StitchSolver::Solve(mesh, input, KeepingScan(3), AtDepth(4)), InvalidInput);
-  EXPECT_THROW(StitchSolver::Solve(mesh, {}, KeepingScan(3), AtDepth(4)), InvalidInput);
+  EXPECT_THROW(StitchSolver::Solve(mesh, input, KeepingScan(3), AtDepth4), InvalidInput);
+  EXPECT_THROW(StitchSolver::Solve(mesh, {}, KeepingScan(3), AtDepth4), InvalidInput);
 }

@@ -28,13 +28,11 @@ Eigen::Matrix3d SomeMap()
 }
 
 /// Returns a mesh bent by a map that is not affine: every triangle gets a metric of its own.
-TriangleMesh Bent(TriangleMesh mesh)
+TriangleMesh Bent(const TriangleMesh& mesh)
 {
-  for (Vec3& p : mesh.points)
-  {
-    p += Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(3.0 * p[0]), -0.25 * p[0] * p[1]);
-  }
-  return mesh;
+  return Mapped(mesh,
+    [](const Vec3& p) -> Vec3
+    { return p + Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(3.0 * p[0]), -0.25 * p[0] * p[1]); });
 }
 
 std::vector<double> Six(const Eigen::Matrix3d& g)
