@@ -60,11 +60,6 @@ public:
    */
   double GetNormalStabilizationMinValue() override;
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkFarthestPoints();
   ~vtkFarthestPoints() override;

@@ -52,7 +52,6 @@ class vtkDataSet;
 
 namespace gridfem
 {
-class SelectedPoints;
 struct GivenConstraints;
 } // namespace gridfem
 
@@ -102,25 +101,14 @@ public:
   ///@}
 
   /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
    * The input of port 2: points with values.
    */
   void SetValuesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
-  /**
-   * The input of port 3: a selection of the points whose values are known.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
 
 protected:
   vtkHarmonicInterpolation();
   ~vtkHarmonicInterpolation() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -135,7 +123,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

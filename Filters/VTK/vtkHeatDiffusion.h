@@ -56,11 +56,6 @@
 
 #include "vtkPoissonAlgorithm.h"
 
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkPoissonAlgorithm
 {
 public:
@@ -154,21 +149,10 @@ public:
   void ClearFurtherArrays();
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
-   * The input of port 2: a selection of points whose values are held.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
 protected:
   vtkHeatDiffusion();
   ~vtkHeatDiffusion() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool NeedsWholeSurface() override;
@@ -190,7 +174,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -163,11 +163,6 @@ public:
   vtkGetMacro(Rescale, int);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkMeanCurvatureFlow();
   ~vtkMeanCurvatureFlow() override;

@@ -48,16 +48,6 @@ vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals
 
 vtkSpectralSignatures::~vtkSpectralSignatures() = default;
 
-int vtkSpectralSignatures::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  }
-  return 1;
-}
-
 int vtkSpectralSignatures::FillOutputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");

@@ -77,11 +77,6 @@ public:
   vtkGetMacro(BlendWidth, double);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkStitchColors();
   ~vtkStitchColors() override;

@@ -78,11 +78,6 @@ public:
   vtkBooleanMacro(HodgeDecomposition, bool);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkSurfaceGradient();
   ~vtkSurfaceGradient() override;
