@@ -31,6 +31,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class FarthestPointsSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkFarthestPoints : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -74,8 +79,7 @@ private:
   vtkFarthestPoints(const vtkFarthestPoints&) = delete;
   void operator=(const vtkFarthestPoints&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::FarthestPointsSolver> Solver;
 };
 
 #endif

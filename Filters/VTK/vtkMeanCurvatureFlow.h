@@ -73,6 +73,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class FlowSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkMeanCurvatureFlow : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -184,8 +189,7 @@ private:
   vtkMeanCurvatureFlow(const vtkMeanCurvatureFlow&) = delete;
   void operator=(const vtkMeanCurvatureFlow&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::FlowSolver> Solver;
 };
 
 #endif

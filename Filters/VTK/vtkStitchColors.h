@@ -38,6 +38,11 @@
 
 #include "vtkPoissonAlgorithm.h"
 
+namespace gridfem
+{
+class StitchSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkPoissonAlgorithm
 {
 public:
@@ -92,8 +97,7 @@ private:
   vtkStitchColors(const vtkStitchColors&) = delete;
   void operator=(const vtkStitchColors&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::StitchSolver> Solver;
 };
 
 #endif
