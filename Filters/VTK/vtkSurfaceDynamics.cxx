@@ -10,10 +10,8 @@
 #include "Solvers/DynamicsSolver.h"
 
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -102,20 +100,16 @@ void vtkSurfaceDynamics::WriteStep(int shown, vtkPolyData* input, vtkPolyData* o
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
   constexpr const char* Names[] = { "U", "V" };
-  vtkNew<vtkDoubleArray> integral;
-  integral->SetName("Integral");
-  integral->SetNumberOfComponents(static_cast<int>(frame.integral.size()));
-  integral->SetNumberOfTuples(1);
   for (gridfem::Id c = 0; c < frame.atPoints.cols(); ++c)
   {
     points->AddArray(
       gridfem::MakePointArray(Names[c], gridfem::MultiVector(frame.atPoints.col(c)), VTK_DOUBLE));
-    integral->SetComponent(0, static_cast<int>(c), frame.integral[c]);
   }
   points->SetActiveScalars("U");
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddFieldNumber(output, "Time", shown * result.timeStep);
-  output->GetFieldData()->AddArray(integral);
+  const gridfem::MultiVector integral = frame.integral.matrix().transpose();
+  output->GetFieldData()->AddArray(gridfem::MakePointArray("Integral", integral, VTK_DOUBLE));
   if (this->Model == Wave)
   {
     gridfem::AddFieldNumber(output, "Energy", frame.energy);

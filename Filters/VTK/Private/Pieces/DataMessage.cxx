@@ -72,14 +72,6 @@ bool HaveSameStrings(vtkStringArray* a, vtkStringArray* b)
   return true;
 }
 
-template<class Ids>
-vtkSmartPointer<Ids> NewIds(vtkIdType count)
-{
-  auto ids = vtkSmartPointer<Ids>::New();
-  SetTuples(ids, count);
-  return ids;
-}
-
 } // namespace
 
 bool CanTravel(vtkAbstractArray* array)
@@ -358,11 +350,13 @@ vtkSmartPointer<vtkCellArray> DataMessage::TakeCells()
   };
   if (isLong)
   {
-    take(NewIds<vtkTypeInt64Array>(count + 1), NewIds<vtkTypeInt64Array>(corners));
+    using Ids = vtkTypeInt64Array;
+    take(NewArray<Ids>(nullptr, count + 1), NewArray<Ids>(nullptr, corners));
   }
   else
   {
-    take(NewIds<vtkTypeInt32Array>(count + 1), NewIds<vtkTypeInt32Array>(corners));
+    using Ids = vtkTypeInt32Array;
+    take(NewArray<Ids>(nullptr, count + 1), NewArray<Ids>(nullptr, corners));
   }
   return cells;
 }
