@@ -1,11 +1,11 @@
 #include "Input/TrackedMesh.h"
 
 #include "Pieces/DataMessage.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkInformation.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -54,10 +54,7 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
   }
   ghosts_ = GhostArrayOf(data);
   counts_ = CountsOf(data);
-  vtkInformation* about = data->GetInformation();
-  time_ = about->Has(vtkDataObject::DATA_TIME_STEP())
-            ? std::make_optional(about->Get(vtkDataObject::DATA_TIME_STEP()))
-            : std::nullopt;
+  time_ = TimeOf(data);
 }
 
 bool TrackedMesh::HasCellsOf(vtkPolyData* data) const

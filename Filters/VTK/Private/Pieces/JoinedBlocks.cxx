@@ -2,6 +2,7 @@
 
 #include "Input/InputValidation.h"
 #include "Pieces/GatheredOutput.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -45,19 +46,6 @@ bool HasArray(vtkPolyData* surface, const std::string& name)
 {
   return surface->GetPointData()->HasArray(name.c_str()) ||
          surface->GetCellData()->HasArray(name.c_str());
-}
-
-/// Gives the whole the time of its blocks.
-void CopyTime(vtkInformation* from, vtkInformation* to)
-{
-  if (from->Has(vtkDataObject::DATA_TIME_STEP()))
-  {
-    to->Set(vtkDataObject::DATA_TIME_STEP(), from->Get(vtkDataObject::DATA_TIME_STEP()));
-  }
-  else
-  {
-    to->Remove(vtkDataObject::DATA_TIME_STEP());
-  }
 }
 
 } // namespace
@@ -184,7 +172,7 @@ vtkInformationVector** JoinedBlocks::Inputs(
   }
   if (!blocks_.empty())
   {
-    CopyTime(blocks_.front().data->GetInformation(), entry_->surface.whole->GetInformation());
+    SetTime(entry_->surface.whole, TimeOf(blocks_.front().data));
   }
   return inputs_.Of(inputs, ports, entry_->surface.whole);
 }
