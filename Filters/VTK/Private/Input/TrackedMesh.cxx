@@ -24,16 +24,6 @@ vtkAbstractArray* GhostArrayOf(vtkPolyData* data)
   return data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
 }
 
-bool AreSame(vtkCellArray* a, vtkCellArray* b)
-{
-  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
-  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
-  return a == b || (ours == theirs &&
-                     (ours == 0 ||
-                       (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
-                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray()))));
-}
-
 } // namespace
 
 TrackedMesh::TrackedMesh() = default;
@@ -59,8 +49,9 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
 
 bool TrackedMesh::HasCellsOf(vtkPolyData* data) const
 {
-  return counts_ == CountsOf(data) && AreSame(cells_[0], data->GetPolys()) &&
-         AreSame(cells_[1], data->GetStrips()) && HaveSameContents(ghosts_, GhostArrayOf(data));
+  return counts_ == CountsOf(data) && HaveSameCells(cells_[0], data->GetPolys()) &&
+         HaveSameCells(cells_[1], data->GetStrips()) &&
+         HaveSameContents(ghosts_, GhostArrayOf(data));
 }
 
 bool TrackedMesh::Follow(vtkPolyData* data, const InputMesh& reference)

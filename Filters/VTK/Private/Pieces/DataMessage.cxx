@@ -99,6 +99,16 @@ bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b)
   return texts && HaveSameStrings(texts, vtkStringArray::SafeDownCast(b));
 }
 
+bool HaveSameCells(vtkCellArray* a, vtkCellArray* b)
+{
+  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
+  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
+  return a == b || (ours == theirs &&
+                     (ours == 0 ||
+                       (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray()))));
+}
+
 void DataMessage::PutBytes(const void* bytes, std::size_t count)
 {
   const char* first = static_cast<const char*>(bytes);

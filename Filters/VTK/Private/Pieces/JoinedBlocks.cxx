@@ -1,15 +1,14 @@
 #include "Pieces/JoinedBlocks.h"
 
+#include "Input/InputArray.h"
 #include "Input/InputValidation.h"
 #include "Pieces/GatheredOutput.h"
 #include "Pipeline/PipelineTime.h"
 
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -40,12 +39,6 @@ void ForEachBlock(vtkCompositeDataSet* whole, Body&& body)
       body(data, leaf.Get());
     }
   }
-}
-
-bool HasArray(vtkPolyData* surface, const std::string& name)
-{
-  return surface->GetPointData()->HasArray(name.c_str()) ||
-         surface->GetCellData()->HasArray(name.c_str());
 }
 
 } // namespace
