@@ -2,8 +2,8 @@
 
 #include "Input/CarriedModes.h"
 #include "Input/ModeReader.h"
+#include "Input/NearestPoints.h"
 #include "Input/PropertyList.h"
-#include "Input/SourcePoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
 #include "Output/SignatureOutput.h"
@@ -12,6 +12,7 @@
 #include "Pieces/Ranks.h"
 #include "Pipeline/FilterState.h"
 
+#include "Distance/NearestSource.h"
 #include "Integrals/QuadratureRule.h"
 
 #include "vtkDataArray.h"
@@ -24,7 +25,33 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkSpectralSignatures);
+
+namespace
+{
+
+/// Returns the given points, and the mesh points nearest to the points and lines of `places` (may
+/// be null), ascending, every point once.
+/// @param warnings  gets a sentence if places are far from the surface
+std::vector<gridfem::Id> SourcePoints(const gridfem::TriangleMesh& mesh,
+  const std::vector<gridfem::Id>& ids, vtkDataSet* places, std::vector<std::string>& warnings)
+{
+  gridfem::RequireUsed("Source Point Ids", ids, mesh);
+  std::vector<gridfem::Id> sources = ids;
+  if (places && places->GetNumberOfPoints() > 0)
+  {
+    const std::vector<gridfem::Id> nearest =
+      gridfem::NearestPointsAlongLines(mesh, places, "Sources", warnings);
+    sources.insert(sources.end(), nearest.begin(), nearest.end());
+  }
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  return sources;
+}
+
+} // namespace
 
 struct vtkSpectralSignatures::Internals
 {
@@ -128,10 +155,8 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   }
   std::vector<std::string> farSources;
   surface.Together(
-    [&]
-    {
-      data.Given.sources =
-        gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
+    [&] {
+      data.Given.sources = SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
     });
   this->Warn(farSources);
   this->FindValues();
