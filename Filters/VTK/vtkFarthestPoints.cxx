@@ -14,12 +14,7 @@
 
 vtkStandardNewMacro(vtkFarthestPoints);
 
-struct vtkFarthestPoints::Internals
-{
-  gridfem::FarthestPointsSolver Solver;
-};
-
-vtkFarthestPoints::vtkFarthestPoints() : Data(std::make_unique<Internals>())
+vtkFarthestPoints::vtkFarthestPoints() : Solver(std::make_unique<gridfem::FarthestPointsSolver>())
 {
   this->SetNumberOfInputPorts(2);
   this->Tolerance = 1e-4;
@@ -48,7 +43,7 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
   options.numberOfPoints = this->NumberOfPoints;
   options.firstPointId = this->FirstPointId;
   const gridfem::FarthestPointsSolver::Result& result =
-    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
+    this->Solver->Update(surface, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
@@ -63,7 +58,7 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
 void vtkFarthestPoints::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = Internals();
+  *this->Solver = gridfem::FarthestPointsSolver();
 }
 
 void vtkFarthestPoints::PrintSelf(ostream& os, vtkIndent indent)

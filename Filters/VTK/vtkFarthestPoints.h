@@ -31,6 +31,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class FarthestPointsSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkFarthestPoints : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -60,11 +65,6 @@ public:
    */
   double GetNormalStabilizationMinValue() override;
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkFarthestPoints();
   ~vtkFarthestPoints() override;
@@ -79,8 +79,7 @@ private:
   vtkFarthestPoints(const vtkFarthestPoints&) = delete;
   void operator=(const vtkFarthestPoints&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::FarthestPointsSolver> Solver;
 };
 
 #endif

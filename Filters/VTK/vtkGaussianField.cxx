@@ -3,7 +3,6 @@
 #include "Input/GivenValues.h"
 #include "Input/InputArray.h"
 #include "Input/PropertyList.h"
-#include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
@@ -12,12 +11,10 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 #include <map>
 #include <string>
@@ -80,10 +77,9 @@ struct vtkGaussianField::Internals
   }
 };
 
-vtkGaussianField::vtkGaussianField()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkGaussianField::vtkGaussianField() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(4);
+  this->SetSelectionPort(3);
   const gridfem::GaussianFieldSolver::Options defaults;
   this->Tolerance = defaults.equation.solve.tolerance;
   this->MaximumIterations = defaults.equation.solve.maximumIterations;
@@ -92,16 +88,6 @@ vtkGaussianField::vtkGaussianField()
 }
 
 vtkGaussianField::~vtkGaussianField() = default;
-
-int vtkGaussianField::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
-  }
-  return 1;
-}
 
 gridfem::GivenConstraints vtkGaussianField::FindObservations(vtkDataSet* places)
 {
@@ -144,7 +130,7 @@ void vtkGaussianField::Compute(vtkInformationVector** inputs, vtkInformationVect
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  this->ReadSelection(inputs);
   this->Data->FarObservations.clear();
   gridfem::GaussianFieldSolver::Options options;
   options.equation = state.options;
@@ -220,7 +206,6 @@ vtkIdType vtkGaussianField::GetNumberOfObservations()
 void vtkGaussianField::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   this->Data->Solver = {};
   this->Data->Result = nullptr;
 }

@@ -74,7 +74,6 @@ class vtkDataSet;
 
 namespace gridfem
 {
-class SelectedPoints;
 struct GivenConstraints;
 } // namespace gridfem
 
@@ -158,11 +157,6 @@ public:
   ///@}
 
   /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
    * The input of port 2: points with observations.
    */
   void SetObservationsConnection(vtkAlgorithmOutput* output)
@@ -170,16 +164,10 @@ public:
     this->SetInputConnection(2, output);
   }
 
-  /**
-   * The input of port 3: a selection of the points with observations.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
-
 protected:
   vtkGaussianField();
   ~vtkGaussianField() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -200,7 +188,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

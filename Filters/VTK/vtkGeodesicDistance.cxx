@@ -12,12 +12,10 @@
 #include "Solvers/DistanceSolver.h"
 
 #include "vtkDataSet.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 vtkStandardNewMacro(vtkGeodesicDistance);
 
@@ -29,10 +27,9 @@ struct vtkGeodesicDistance::Internals
   std::vector<std::string> FarSources;  // warnings of this run
 };
 
-vtkGeodesicDistance::vtkGeodesicDistance()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkGeodesicDistance::vtkGeodesicDistance() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(4);
+  this->SetSelectionPort(3);
   this->Tolerance = 1e-4;
   this->NormalStabilization = gridfem::DistanceOptions::LeastStabilization;
   this->MaximumIterations = 200;
@@ -43,16 +40,6 @@ vtkGeodesicDistance::~vtkGeodesicDistance() = default;
 double vtkGeodesicDistance::GetNormalStabilizationMinValue()
 {
   return gridfem::DistanceOptions::LeastStabilization;
-}
-
-int vtkGeodesicDistance::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
-  }
-  return 1;
 }
 
 void vtkGeodesicDistance::AddSourcePointId(vtkIdType id)
@@ -158,7 +145,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   state.options.space.joinAtPoints = defaults.space.joinAtPoints;
   state.options.functionsPerPoint = defaults.functionsPerPoint;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  this->ReadSelection(inputs);
   data.Input = {};
   data.FarSources.clear();
   this->FindSources(places);
@@ -182,7 +169,6 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
 void vtkGeodesicDistance::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   this->Data->Solver = {};
   this->Data->Input = {};
 }

@@ -72,11 +72,6 @@
 
 class vtkDataSet;
 
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicDistance : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -161,25 +156,14 @@ public:
   double GetNormalStabilizationMinValue() override;
 
   /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
    * The input of port 2: sources of distances.
    */
   void SetSourcesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
-  /**
-   * The input of port 3: a selection of sources.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
 
 protected:
   vtkGeodesicDistance();
   ~vtkGeodesicDistance() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool NeedsWholeSurface() override;
   void FreeStages() override;
@@ -201,7 +185,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -11,11 +11,9 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 vtkStandardNewMacro(vtkGeodesicPaths);
 
@@ -26,24 +24,13 @@ struct vtkGeodesicPaths::Internals
   gridfem::PathSolver Solver;
 };
 
-vtkGeodesicPaths::vtkGeodesicPaths()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkGeodesicPaths::vtkGeodesicPaths() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetSelectionPort(1);
   this->SetNumberOfOutputPorts(2);
 }
 
 vtkGeodesicPaths::~vtkGeodesicPaths() = default;
-
-int vtkGeodesicPaths::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-  }
-  return 1;
-}
 
 void vtkGeodesicPaths::AddSourcePointId(vtkIdType id)
 {
@@ -90,7 +77,7 @@ void vtkGeodesicPaths::Compute(vtkInformationVector** inputs, vtkInformationVect
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, nullptr);
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[1]), this->JoinedInput());
+  this->ReadSelection(inputs);
   gridfem::PathSolver::Input given;
   given.sources.ids = this->Data->SourceIds;
   given.sources.mask = surface.Given(surface.Find(0, "Source Array"));
@@ -118,7 +105,6 @@ void vtkGeodesicPaths::Compute(vtkInformationVector** inputs, vtkInformationVect
 void vtkGeodesicPaths::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   this->Data->Solver = {};
 }
 

@@ -53,11 +53,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicPaths : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -102,16 +97,10 @@ public:
   vtkGetMacro(PathType, int);
   ///@}
 
-  /**
-   * The input of port 1: a selection of targets.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkGeodesicPaths();
   ~vtkGeodesicPaths() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -123,7 +112,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

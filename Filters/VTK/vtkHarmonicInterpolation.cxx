@@ -4,7 +4,6 @@
 #include "Input/InputArray.h"
 #include "Input/JoinedArrays.h"
 #include "Input/PropertyList.h"
-#include "Input/SelectedPoints.h"
 #include "Output/SolverOutput.h"
 #include "Pipeline/FilterState.h"
 
@@ -12,12 +11,10 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 #include <array>
 #include <vector>
@@ -75,26 +72,15 @@ struct vtkHarmonicInterpolation::Internals
   }
 };
 
-vtkHarmonicInterpolation::vtkHarmonicInterpolation()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkHarmonicInterpolation::vtkHarmonicInterpolation() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(4);
+  this->SetSelectionPort(3);
   this->Tolerance = 1e-6;
   this->MaximumIterations = 200;
   this->NormalStabilization = 1e-2;
 }
 
 vtkHarmonicInterpolation::~vtkHarmonicInterpolation() = default;
-
-int vtkHarmonicInterpolation::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port >= 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
-  }
-  return 1;
-}
 
 gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   vtkPolyData* input, vtkDataSet* places)
@@ -160,7 +146,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   Internals& data = *this->Data;
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  this->ReadSelection(inputs);
   data.FarValues.clear();
   const gridfem::GivenConstraints values = this->FindValues(input, vtkDataSet::GetData(inputs[2]));
   gridfem::InterpolationSolver::Options options;
@@ -176,16 +162,6 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   gridfem::AddFieldNumber(output, "Misfit", result.misfit);
   this->Warn(data.FarValues);
   this->Warn(result.warnings);
-}
-
-void vtkHarmonicInterpolation::AddFurtherArray(const char* name)
-{
-  gridfem::AddFurtherArray(this, name);
-}
-
-void vtkHarmonicInterpolation::ClearFurtherArrays()
-{
-  gridfem::ClearFurtherArrays(this);
 }
 
 void vtkHarmonicInterpolation::AddKnownValue(double point, double value)
@@ -206,7 +182,6 @@ int vtkHarmonicInterpolation::GetNumberOfKnownValues()
 void vtkHarmonicInterpolation::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   this->Data->Array = gridfem::InputArray();
   this->Data->Arrays = gridfem::JoinedArrays();
   this->Data->Solver = gridfem::InterpolationSolver();

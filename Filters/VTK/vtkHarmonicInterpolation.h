@@ -24,6 +24,8 @@
  * - index 2 (optional): point data of port 2, if port 2 is connected. If none is chosen, the filter
  *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
  *   not chosen either. The MaskArray and the selection are not used then.
+ * - AddFurtherArray: point data that are interpolated together with the ValueArray, at the same
+ *   known points.
  *
  * If one point has several values, the filter takes their mean, and warns if they differ.
  *
@@ -52,7 +54,6 @@ class vtkDataSet;
 
 namespace gridfem
 {
-class SelectedPoints;
 struct GivenConstraints;
 } // namespace gridfem
 
@@ -90,37 +91,15 @@ public:
   int GetNumberOfKnownValues();
   ///@}
 
-  ///@{
-  /**
-   * Further arrays that are interpolated together with the ValueArray, at the same known points.
-   * They are point data. The result of each has the name of the array before its name, as in
-   * `Thickness_Interpolated`. All errors, and all other numbers in the field data, are then the
-   * worst of all arrays. None by default.
-   */
-  void AddFurtherArray(const char* name);
-  void ClearFurtherArrays();
-  ///@}
-
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
   /**
    * The input of port 2: points with values.
    */
   void SetValuesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
 
-  /**
-   * The input of port 3: a selection of the points whose values are known.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
-
 protected:
   vtkHarmonicInterpolation();
   ~vtkHarmonicInterpolation() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -135,7 +114,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -2,7 +2,6 @@
 
 #include "Input/InputArray.h"
 #include "Input/JoinedArrays.h"
-#include "Input/SelectedPoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
 #include "Output/SolverOutput.h"
@@ -14,13 +13,11 @@
 #include "Solvers/DiffusionSolver.h"
 
 #include "vtkDataArray.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 #include <numeric>
 
@@ -36,25 +33,14 @@ struct vtkHeatDiffusion::Internals
   const gridfem::DiffusionSolver::Result* Result = nullptr; // of this run
 };
 
-vtkHeatDiffusion::vtkHeatDiffusion()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkHeatDiffusion::vtkHeatDiffusion() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetSelectionPort(2);
   this->NormalStabilization =
     gridfem::DiffusionSolver::SurfaceDefaults().choice.normalStabilization;
 }
 
 vtkHeatDiffusion::~vtkHeatDiffusion() = default;
-
-int vtkHeatDiffusion::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-  }
-  return 1;
-}
 
 std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
 {
@@ -81,7 +67,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
+  this->ReadSelection(inputs);
   data.Array = data.Arrays.Join(this, surface, surface.Find(0, "Array"), "Array");
   data.Source = surface.Find(1, "Heat Source Array");
   data.Mask = surface.Find(2, "Constraint Array");
@@ -145,20 +131,9 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   }
 }
 
-void vtkHeatDiffusion::AddFurtherArray(const char* name)
-{
-  gridfem::AddFurtherArray(this, name);
-}
-
-void vtkHeatDiffusion::ClearFurtherArrays()
-{
-  gridfem::ClearFurtherArrays(this);
-}
-
 void vtkHeatDiffusion::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   *this->Data = Internals();
 }
 

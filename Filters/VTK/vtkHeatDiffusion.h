@@ -25,6 +25,7 @@
  *   Without it the source is 0.
  * - index 2, the ConstraintArray: point data with one component. Points at which it is not 0 keep
  *   the value of time 0. The array at time 0 must be point data in this case.
+ * - AddFurtherArray: arrays that are smoothed together with the array of index 0.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Diffused` (C components). It is of bytes if the array holds colors (three or four
@@ -55,11 +56,6 @@
 #define vtkHeatDiffusion_h
 
 #include "vtkPoissonAlgorithm.h"
-
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkPoissonAlgorithm
 {
@@ -143,32 +139,10 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
-  ///@{
-  /**
-   * Further arrays that are smoothed together with the array of index 0, and in the same way. They
-   * are of points if this array is, else of cells. The result of each has the name of the array
-   * before its name, as in `Thickness_Diffused`. All errors, and all other numbers in the field
-   * data, are then the worst of all arrays. None by default.
-   */
-  void AddFurtherArray(const char* name);
-  void ClearFurtherArrays();
-  ///@}
-
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
-   * The input of port 2: a selection of points whose values are held.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
 protected:
   vtkHeatDiffusion();
   ~vtkHeatDiffusion() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool NeedsWholeSurface() override;
@@ -190,7 +164,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

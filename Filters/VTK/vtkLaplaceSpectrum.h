@@ -150,11 +150,6 @@ public:
   vtkGetMacro(Accuracy, double);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkLaplaceSpectrum();
   ~vtkLaplaceSpectrum() override;

@@ -53,12 +53,7 @@ void WriteTable(const std::vector<Step>& steps, vtkTable* table)
 
 } // namespace
 
-struct vtkMeanCurvatureFlow::Internals
-{
-  gridfem::FlowSolver Solver;
-};
-
-vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>())
+vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Solver(std::make_unique<gridfem::FlowSolver>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
@@ -87,7 +82,7 @@ std::vector<double> vtkMeanCurvatureFlow::OwnTimeSteps()
 void vtkMeanCurvatureFlow::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Data = std::make_unique<Internals>();
+  this->Solver = std::make_unique<gridfem::FlowSolver>();
 }
 
 void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -95,7 +90,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::FilterState& state = *this->State;
-  gridfem::FlowSolver& solver = this->Data->Solver;
+  gridfem::FlowSolver& solver = *this->Solver;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
 

@@ -73,6 +73,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class FlowSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkMeanCurvatureFlow : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -163,11 +168,6 @@ public:
   vtkGetMacro(Rescale, int);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkMeanCurvatureFlow();
   ~vtkMeanCurvatureFlow() override;
@@ -189,8 +189,7 @@ private:
   vtkMeanCurvatureFlow(const vtkMeanCurvatureFlow&) = delete;
   void operator=(const vtkMeanCurvatureFlow&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::FlowSolver> Solver;
 };
 
 #endif

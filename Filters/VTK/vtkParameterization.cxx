@@ -11,12 +11,8 @@
 
 vtkStandardNewMacro(vtkParameterization);
 
-struct vtkParameterization::Internals
-{
-  gridfem::ParameterizationSolver Solver;
-};
-
-vtkParameterization::vtkParameterization() : Data(std::make_unique<Internals>())
+vtkParameterization::vtkParameterization()
+  : Solver(std::make_unique<gridfem::ParameterizationSolver>())
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -33,7 +29,7 @@ void vtkParameterization::Compute(vtkInformationVector** inputs, vtkInformationV
   options.holeSize = this->HoleSize;
   options.extraCuts = this->ExtraCuts;
   const gridfem::ParameterizationSolver::Result& result =
-    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
+    this->Solver->Update(surface, options, { 0, state.GetProgress() });
 
   vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
   mesh->ShallowCopy(input);
@@ -45,7 +41,7 @@ void vtkParameterization::Compute(vtkInformationVector** inputs, vtkInformationV
 void vtkParameterization::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = Internals();
+  *this->Solver = gridfem::ParameterizationSolver();
 }
 
 void vtkParameterization::PrintSelf(ostream& os, vtkIndent indent)

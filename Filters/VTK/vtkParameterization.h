@@ -45,6 +45,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class ParameterizationSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkParameterization : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -102,8 +107,7 @@ private:
   vtkParameterization(const vtkParameterization&) = delete;
   void operator=(const vtkParameterization&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::ParameterizationSolver> Solver;
 };
 
 #endif

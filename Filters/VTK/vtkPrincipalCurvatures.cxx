@@ -13,12 +13,8 @@
 
 vtkStandardNewMacro(vtkPrincipalCurvatures);
 
-struct vtkPrincipalCurvatures::Internals
-{
-  gridfem::CurvatureSolver Solver;
-};
-
-vtkPrincipalCurvatures::vtkPrincipalCurvatures() : Data(std::make_unique<Internals>())
+vtkPrincipalCurvatures::vtkPrincipalCurvatures()
+  : Solver(std::make_unique<gridfem::CurvatureSolver>())
 {
   const gridfem::SolveOptions solve = gridfem::CurvatureSolver::Options().equation.solve;
   this->Tolerance = solve.tolerance;
@@ -40,7 +36,7 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
   options.smoothingScale = this->SmoothingScale;
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::CurvatureSolver::Result& result =
-    this->Data->Solver.Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.95) });
+    this->Solver->Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
@@ -65,7 +61,7 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
 void vtkPrincipalCurvatures::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = Internals();
+  *this->Solver = gridfem::CurvatureSolver();
 }
 
 void vtkPrincipalCurvatures::PrintSelf(ostream& os, vtkIndent indent)

@@ -44,6 +44,11 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+class CurvatureSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkPrincipalCurvatures : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -75,8 +80,7 @@ private:
   vtkPrincipalCurvatures(const vtkPrincipalCurvatures&) = delete;
   void operator=(const vtkPrincipalCurvatures&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::CurvatureSolver> Solver;
 };
 
 #endif

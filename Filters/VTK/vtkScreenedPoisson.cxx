@@ -2,7 +2,6 @@
 
 #include "Input/InputArray.h"
 #include "Input/JoinedArrays.h"
-#include "Input/SelectedPoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
 #include "Output/SolverOutput.h"
@@ -21,7 +20,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 #include "vtkTable.h"
 
 vtkStandardNewMacro(vtkScreenedPoisson);
@@ -39,24 +37,13 @@ struct vtkScreenedPoisson::Internals
   const gridfem::PoissonSolver::Result* Result = nullptr; // of this run
 };
 
-vtkScreenedPoisson::vtkScreenedPoisson()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetSelectionPort(2);
   this->SetNumberOfOutputPorts(2);
 }
 
 vtkScreenedPoisson::~vtkScreenedPoisson() = default;
-
-int vtkScreenedPoisson::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-  }
-  return 1;
-}
 
 int vtkScreenedPoisson::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -109,7 +96,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.options.trackMetric = this->TrackMetric && !(this->WantedError > 0.0);
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
+  this->ReadSelection(inputs);
   this->FindArrays();
 
   gridfem::PoissonSolver::Options options;
@@ -177,20 +164,9 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   }
 }
 
-void vtkScreenedPoisson::AddFurtherArray(const char* name)
-{
-  gridfem::AddFurtherArray(this, name);
-}
-
-void vtkScreenedPoisson::ClearFurtherArrays()
-{
-  gridfem::ClearFurtherArrays(this);
-}
-
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   *this->Data = Internals();
 }
 

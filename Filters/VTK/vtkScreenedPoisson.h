@@ -41,6 +41,7 @@
  * - index 6, `BoundaryFluxArray` (optional): point data, C components, in units of f over length.
  *   It is the outward slope of u minus the outward slope of s g, at points of the boundary. It
  *   cannot be combined with a MetricArray.
+ * - AddFurtherArray: arrays that are solved for together with the ValueArray.
  *
  * With weights, constraints, a flux, BoundaryValues or FillUnknown, the mean is kept only on
  * connected components without a weight or constraint that holds them. The filter warns once about
@@ -92,11 +93,6 @@
 #define vtkScreenedPoisson_h
 
 #include "vtkPoissonAlgorithm.h"
-
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkPoissonAlgorithm
 {
@@ -194,32 +190,10 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
-  ///@{
-  /**
-   * Further arrays that are solved for together with the array of index 0, and in the same way.
-   * They are of points if this array is, else of cells. The result of each has the name of the
-   * array before its name, as in `Thickness_Solution`. All errors, and all other numbers in the
-   * field data, are then the worst of all arrays. None by default.
-   */
-  void AddFurtherArray(const char* name);
-  void ClearFurtherArrays();
-  ///@}
-
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
-   * The input of port 2: a selection of points whose values are held.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
 protected:
   vtkScreenedPoisson();
   ~vtkScreenedPoisson() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   bool NeedsWholeSurface() override;
@@ -243,7 +217,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

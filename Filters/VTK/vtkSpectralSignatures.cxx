@@ -2,8 +2,8 @@
 
 #include "Input/CarriedModes.h"
 #include "Input/ModeReader.h"
+#include "Input/NearestPoints.h"
 #include "Input/PropertyList.h"
-#include "Input/SourcePoints.h"
 #include "Output/ClippedMeshWriter.h"
 #include "Output/MovedMeshWriter.h"
 #include "Output/SignatureOutput.h"
@@ -12,6 +12,8 @@
 #include "Pieces/Ranks.h"
 #include "Pipeline/FilterState.h"
 
+#include "Base/SortEachOnce.h"
+#include "Distance/NearestSource.h"
 #include "Integrals/QuadratureRule.h"
 
 #include "vtkDataArray.h"
@@ -25,6 +27,29 @@
 #include "vtkTable.h"
 
 vtkStandardNewMacro(vtkSpectralSignatures);
+
+namespace
+{
+
+/// Returns the given points, and the mesh points nearest to the points and lines of `places` (may
+/// be null), ascending, every point once.
+/// @param warnings  gets a sentence if places are far from the surface
+std::vector<gridfem::Id> SourcePoints(const gridfem::TriangleMesh& mesh,
+  const std::vector<gridfem::Id>& ids, vtkDataSet* places, std::vector<std::string>& warnings)
+{
+  gridfem::RequireUsed("Source Point Ids", ids, mesh);
+  std::vector<gridfem::Id> sources = ids;
+  if (places && places->GetNumberOfPoints() > 0)
+  {
+    const std::vector<gridfem::Id> nearest =
+      gridfem::NearestPointsAlongLines(mesh, places, "Sources", warnings);
+    sources.insert(sources.end(), nearest.begin(), nearest.end());
+  }
+  gridfem::SortEachOnce(sources);
+  return sources;
+}
+
+} // namespace
 
 struct vtkSpectralSignatures::Internals
 {
@@ -47,16 +72,6 @@ vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals
 }
 
 vtkSpectralSignatures::~vtkSpectralSignatures() = default;
-
-int vtkSpectralSignatures::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  }
-  return 1;
-}
 
 int vtkSpectralSignatures::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -138,10 +153,8 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   }
   std::vector<std::string> farSources;
   surface.Together(
-    [&]
-    {
-      data.Given.sources =
-        gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
+    [&] {
+      data.Given.sources = SourcePoints(*data.Mesh.triangles, data.SourceIds, sources, farSources);
     });
   this->Warn(farSources);
   this->FindValues();

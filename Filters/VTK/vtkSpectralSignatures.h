@@ -178,11 +178,6 @@ public:
   ///@}
 
   /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
    * The input of port 2: sources of distances.
    */
   void SetSourcesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
@@ -191,7 +186,6 @@ protected:
   vtkSpectralSignatures();
   ~vtkSpectralSignatures() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   bool NeedsWholeSurface() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;

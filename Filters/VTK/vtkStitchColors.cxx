@@ -137,12 +137,7 @@ vtkSmartPointer<vtkDataArray> WithValues(
 
 } // namespace
 
-struct vtkStitchColors::Internals
-{
-  gridfem::StitchSolver Solver;
-};
-
-vtkStitchColors::vtkStitchColors() : Data(std::make_unique<Internals>())
+vtkStitchColors::vtkStitchColors() : Solver(std::make_unique<gridfem::StitchSolver>())
 {
   this->SetNumberOfInputPorts(2);
   this->NormalStabilization = gridfem::StitchSolver::SurfaceDefaults().choice.normalStabilization;
@@ -167,7 +162,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   state.options.functionsPerPoint = gridfem::StitchSolver::FunctionsPerPoint(options);
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::StitchSolver::Result& stitched =
-    this->Data->Solver.Update(surface, { surface.Given(colors), surface.Given(labels) }, options,
+    this->Solver->Update(surface, { surface.Given(colors), surface.Given(labels) }, options,
       { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
@@ -198,7 +193,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
 void vtkStitchColors::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = Internals();
+  *this->Solver = gridfem::StitchSolver();
 }
 
 void vtkStitchColors::PrintSelf(ostream& os, vtkIndent indent)

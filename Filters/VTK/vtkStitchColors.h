@@ -38,6 +38,11 @@
 
 #include "vtkPoissonAlgorithm.h"
 
+namespace gridfem
+{
+class StitchSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkPoissonAlgorithm
 {
 public:
@@ -77,11 +82,6 @@ public:
   vtkGetMacro(BlendWidth, double);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkStitchColors();
   ~vtkStitchColors() override;
@@ -97,8 +97,7 @@ private:
   vtkStitchColors(const vtkStitchColors&) = delete;
   void operator=(const vtkStitchColors&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::StitchSolver> Solver;
 };
 
 #endif

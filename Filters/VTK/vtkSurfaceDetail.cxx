@@ -11,14 +11,12 @@
 #include "Solvers/DetailSolver.h"
 
 #include "vtkDataArray.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 #include <algorithm>
 
@@ -31,10 +29,9 @@ struct vtkSurfaceDetail::Internals
   const gridfem::DetailSolver::Result* Result = nullptr; // of this run
 };
 
-vtkSurfaceDetail::vtkSurfaceDetail()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkSurfaceDetail::vtkSurfaceDetail() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetSelectionPort(2);
   this->CustomTransferFunction = vtkSmartPointer<vtkPiecewiseFunction>::New();
   this->CustomTransferFunction->AddPoint(-1.0, 1.0);
   this->CustomTransferFunction->AddPoint(0.0, 0.0);
@@ -46,16 +43,6 @@ vtkSurfaceDetail::vtkSurfaceDetail()
 }
 
 vtkSurfaceDetail::~vtkSurfaceDetail() = default;
-
-int vtkSurfaceDetail::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-  }
-  return 1;
-}
 
 void vtkSurfaceDetail::SetCustomTransferFunction(vtkPiecewiseFunction* function)
 {
@@ -88,7 +75,7 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   data.Value = surface.Find(0, "Value Array");
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
+  this->ReadSelection(inputs);
 
   gridfem::DetailSolver::Input given;
   given.values = surface.Given(data.Value);
@@ -168,7 +155,6 @@ void vtkSurfaceDetail::WriteFacts(vtkPolyData* output)
 void vtkSurfaceDetail::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   *this->Data = Internals();
 }
 

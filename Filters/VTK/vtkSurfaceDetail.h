@@ -64,11 +64,6 @@
 
 class vtkPiecewiseFunction;
 
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceDetail : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -172,21 +167,10 @@ public:
   vtkBooleanMacro(KeepVolume, bool);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
-   * The input of port 2: a selection of points to which DetailScale applies.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
 protected:
   vtkSurfaceDetail();
   ~vtkSurfaceDetail() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
@@ -209,7 +193,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -10,15 +10,11 @@
 #include "Solvers/DynamicsSolver.h"
 
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSelection.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,10 +27,9 @@ struct vtkSurfaceDynamics::Internals
   const gridfem::DynamicsSolver::Result* Result = nullptr; // of this run
 };
 
-vtkSurfaceDynamics::vtkSurfaceDynamics()
-  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
+vtkSurfaceDynamics::vtkSurfaceDynamics() : Data(std::make_unique<Internals>())
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetSelectionPort(2);
   const gridfem::DynamicsSolver::Options defaults;
   const gridfem::SurfaceOptions ofSurface = gridfem::DynamicsSolver::SurfaceDefaults();
   this->Tolerance = defaults.equation.solve.tolerance;
@@ -44,16 +39,6 @@ vtkSurfaceDynamics::vtkSurfaceDynamics()
 }
 
 vtkSurfaceDynamics::~vtkSurfaceDynamics() = default;
-
-int vtkSurfaceDynamics::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-  }
-  return 1;
-}
 
 std::vector<double> vtkSurfaceDynamics::OwnTimeSteps()
 {
@@ -67,7 +52,7 @@ void vtkSurfaceDynamics::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::FilterState& state = *this->State;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]), this->JoinedInput());
+  this->ReadSelection(inputs);
   const gridfem::InputArray start = surface.Find(0, "Start Array");
   const gridfem::InputArray velocity = surface.Find(1, "Velocity Array");
   const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 0, this->NumberOfSteps);
@@ -115,20 +100,16 @@ void vtkSurfaceDynamics::WriteStep(int shown, vtkPolyData* input, vtkPolyData* o
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
   constexpr const char* Names[] = { "U", "V" };
-  vtkNew<vtkDoubleArray> integral;
-  integral->SetName("Integral");
-  integral->SetNumberOfComponents(static_cast<int>(frame.integral.size()));
-  integral->SetNumberOfTuples(1);
   for (gridfem::Id c = 0; c < frame.atPoints.cols(); ++c)
   {
     points->AddArray(
       gridfem::MakePointArray(Names[c], gridfem::MultiVector(frame.atPoints.col(c)), VTK_DOUBLE));
-    integral->SetComponent(0, static_cast<int>(c), frame.integral[c]);
   }
   points->SetActiveScalars("U");
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddFieldNumber(output, "Time", shown * result.timeStep);
-  output->GetFieldData()->AddArray(integral);
+  const gridfem::MultiVector integral = frame.integral.matrix().transpose();
+  output->GetFieldData()->AddArray(gridfem::MakePointArray("Integral", integral, VTK_DOUBLE));
   if (this->Model == Wave)
   {
     gridfem::AddFieldNumber(output, "Energy", frame.energy);
@@ -139,7 +120,6 @@ void vtkSurfaceDynamics::WriteStep(int shown, vtkPolyData* input, vtkPolyData* o
 void vtkSurfaceDynamics::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Selection->Free();
   *this->Data = Internals();
 }
 

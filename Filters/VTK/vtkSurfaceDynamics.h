@@ -54,11 +54,6 @@
 
 #include <string>
 
-namespace gridfem
-{
-class SelectedPoints;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceDynamics : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -167,21 +162,10 @@ public:
   vtkGetCharFromStdStringMacro(ReactionV);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
-  /**
-   * The input of port 2: a selection of points that are disturbed at time 0.
-   */
-  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
-
 protected:
   vtkSurfaceDynamics();
   ~vtkSurfaceDynamics() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
@@ -207,7 +191,6 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
-  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

@@ -4,6 +4,8 @@
 #include "Input/InputArray.h"
 #include "Input/InputBlocks.h"
 #include "Input/InputValidation.h"
+#include "Input/JoinedArrays.h"
+#include "Input/SelectedPoints.h"
 #include "Input/SurfaceInput.h"
 #include "Output/BlockTables.h"
 #include "Output/ResultNames.h"
@@ -26,6 +28,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 
 #include <algorithm>
 #include <new>
@@ -119,18 +122,55 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
 
 vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm()
 {
+  this->Selection.reset();
   this->State.reset();
   gridfem::ReturnFreedMemory();
 }
 
 int vtkSurfaceFEMAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataSet" : "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == this->SelectionPort ? "vtkSelection"
+                                                      : port == 1                 ? "vtkPolyData"
+                                                                                  : "vtkDataSet");
   if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   return 1;
+}
+
+void vtkSurfaceFEMAlgorithm::SetSelectionPort(int port)
+{
+  this->SetNumberOfInputPorts(port + 1);
+  this->SelectionPort = port;
+  this->Selection = std::make_unique<gridfem::SelectedPoints>(this);
+}
+
+void vtkSurfaceFEMAlgorithm::ReadSelection(vtkInformationVector** inputs)
+{
+  this->State->Surface().Select(
+    *this->Selection, vtkSelection::GetData(inputs[this->SelectionPort]), this->JoinedInput());
+}
+
+void vtkSurfaceFEMAlgorithm::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkSurfaceFEMAlgorithm::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
+}
+
+void vtkSurfaceFEMAlgorithm::SetBasisConnection(vtkAlgorithmOutput* output)
+{
+  const bool isForSelection = this->SelectionPort == 1;
+  this->SetInputConnection(isForSelection ? -1 : 1, output); // VTK refuses a port below 0
+}
+
+void vtkSurfaceFEMAlgorithm::SetSelectionConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(this->SelectionPort, output);
 }
 
 std::vector<double> vtkSurfaceFEMAlgorithm::OwnTimeSteps()
@@ -286,6 +326,7 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }
 
+/// Returns the blocks that the surface is joined from. Null if it is not joined.
 const gridfem::JoinedBlocks* vtkSurfaceFEMAlgorithm::JoinedInput() const
 {
   return this->BlocksAsOne && this->Blocks->Whole() ? this->Joined.get() : nullptr;
@@ -371,6 +412,10 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 {
   this->State->Free();
   this->Ranked->Free();
+  if (this->Selection)
+  {
+    this->Selection->Free();
+  }
 }
 
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)

@@ -108,6 +108,7 @@ class InputBlocks;
 class InputTime;
 class JoinedBlocks;
 class GatheredRanks;
+class SelectedPoints;
 class SurfaceInput;
 } // namespace gridfem
 
@@ -272,6 +273,29 @@ public:
   vtkGetMacro(ParameterUnits, int);
   ///@}
 
+  ///@{
+  /**
+   * Further arrays that are computed together with the array of index 0, and in the same way. They
+   * are of points if this array is, else of cells. The result of each has the name of the array
+   * before its name, as in `Thickness_Solution`. All errors, and all other numbers in the field
+   * data, are then the worst of all arrays. None by default. Only vtkHarmonicInterpolation,
+   * vtkHeatDiffusion and vtkScreenedPoisson use them.
+   */
+  void AddFurtherArray(const char* name);
+  void ClearFurtherArrays();
+  ///@}
+
+  /**
+   * The input of port 1: the basis. A filter without such a port reports an error.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output);
+
+  /**
+   * The input of the last port: a selection of points or cells of port 0. A filter that takes no
+   * selection reports an error.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output);
+
   /**
    * How often this filter has run a stage since it was made. A stage is repeated only if something
    * it depends on has changed. 0 for an unknown stage. Solvers have these stages:
@@ -292,7 +316,22 @@ protected:
   vtkSurfaceFEMAlgorithm();
   ~vtkSurfaceFEMAlgorithm() override;
 
+  /**
+   * Port 0 is required and takes a surface. Port 1 takes a basis. Later ports take any data set.
+   * The port of SetSelectionPort takes a selection.
+   */
   int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /**
+   * Makes this port the last one, and lets it take a selection. The constructor of a derived filter
+   * calls it.
+   */
+  void SetSelectionPort(int port);
+
+  /**
+   * Evaluates the selection on the surface in use. Collective on a shared surface.
+   */
+  void ReadSelection(vtkInformationVector** inputs);
 
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
@@ -344,11 +383,6 @@ protected:
   bool KeepsStages();
 
   /**
-   * The blocks that the surface is joined from. Null if it is not joined.
-   */
-  const gridfem::JoinedBlocks* JoinedInput() const;
-
-  /**
    * Frees everything that the next runs could use. A derived filter also frees the stages it keeps
    * itself.
    */
@@ -368,6 +402,7 @@ protected:
   std::string ResultPrefix;
 
   std::unique_ptr<gridfem::FilterState> State;
+  std::unique_ptr<gridfem::SelectedPoints> Selection; // null without a port for it
 
 private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
@@ -384,9 +419,11 @@ private:
   void UseSurface(bool isPiece);
   void WriteDepth(vtkInformationVector* outputs);
   bool HasNoPoints(vtkInformationVector** inputs) const;
+  const gridfem::JoinedBlocks* JoinedInput() const;
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);
 
+  int SelectionPort = -1; // none
   std::unique_ptr<gridfem::SurfaceInput> Surface;
   std::unique_ptr<gridfem::Domain> Inside;
   std::unique_ptr<gridfem::InputTime> Time;

@@ -17,11 +17,6 @@
 
 vtkStandardNewMacro(vtkSurfaceGradient);
 
-struct vtkSurfaceGradient::Internals
-{
-  gridfem::GradientSolver Solver;
-};
-
 namespace
 {
 
@@ -58,7 +53,7 @@ void WriteArrays(const std::vector<Derived>& fields,
 
 } // namespace
 
-vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
+vtkSurfaceGradient::vtkSurfaceGradient() : Solver(std::make_unique<gridfem::GradientSolver>())
 {
   this->SetNumberOfInputPorts(2);
   this->NormalStabilization = gridfem::GradientSolver::SurfaceDefaults().choice.normalStabilization;
@@ -82,7 +77,7 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
   options.equation = state.options;
   options.hodgeDecomposition = this->HodgeDecomposition;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::GradientSolver::Result& result = this->Data->Solver.Update(
+  const gridfem::GradientSolver::Result& result = this->Solver->Update(
     surface, { surface.Given(array) }, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   const gridfem::Id cells = input ? input->GetNumberOfCells() : 0;
@@ -112,7 +107,7 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkSurfaceGradient::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = Internals();
+  *this->Solver = gridfem::GradientSolver();
 }
 
 void vtkSurfaceGradient::PrintSelf(ostream& os, vtkIndent indent)

@@ -61,6 +61,11 @@
 
 #include "vtkPoissonAlgorithm.h"
 
+namespace gridfem
+{
+class GradientSolver;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkPoissonAlgorithm
 {
 public:
@@ -78,11 +83,6 @@ public:
   vtkBooleanMacro(HodgeDecomposition, bool);
   ///@}
 
-  /**
-   * The input of port 1: the basis.
-   */
-  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
-
 protected:
   vtkSurfaceGradient();
   ~vtkSurfaceGradient() override;
@@ -97,8 +97,7 @@ private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
   void operator=(const vtkSurfaceGradient&) = delete;
 
-  struct Internals;
-  std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::GradientSolver> Solver;
 };
 
 #endif

@@ -22,12 +22,6 @@ std::string ChosenName(vtkInformation* choice)
   return name ? name : "";
 }
 
-bool HasArray(vtkDataSet* input, const std::string& name)
-{
-  return input->GetPointData()->HasArray(name.c_str()) ||
-         input->GetCellData()->HasArray(name.c_str());
-}
-
 bool IsChosen(vtkInformation* choice, vtkDataSet* input)
 {
   if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
@@ -148,6 +142,12 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector&
 bool MeansNoArray(const std::string& name)
 {
   return name.empty() || name == "None" || name.compare(0, 5, "(None") == 0;
+}
+
+bool HasArray(vtkDataSet* data, const std::string& name)
+{
+  return data->GetPointData()->HasArray(name.c_str()) ||
+         data->GetCellData()->HasArray(name.c_str());
 }
 
 InputArray FindInputArray(

@@ -52,6 +52,9 @@ struct MissingChoice : InvalidInput
 /// of the panels, where it comes before the names of arrays.
 bool MeansNoArray(const std::string& name);
 
+/// Whether there is a point or cell array of this name.
+bool HasArray(vtkDataSet* data, const std::string& name);
+
 /// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
 /// chosen. A name that MeansNoArray chooses none, unless an array has that name. Throws
 /// MissingArray if the chosen array does not exist. Throws InvalidInput if it is not numeric, is

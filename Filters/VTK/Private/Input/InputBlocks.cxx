@@ -1,10 +1,10 @@
 #include "Input/InputBlocks.h"
 
+#include "Input/InputArray.h"
 #include "Pieces/Ranks.h"
 
 #include "Base/Errors.h"
 
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
@@ -15,7 +15,6 @@
 #include "vtkMultiPieceDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -281,8 +280,7 @@ bool InputBlocks::AnyHas(const std::string& array) const
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
     auto* block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject());
-    if (block && (block->GetPointData()->HasArray(array.c_str()) ||
-                   block->GetCellData()->HasArray(array.c_str())))
+    if (block && HasArray(block, array))
     {
       return true;
     }

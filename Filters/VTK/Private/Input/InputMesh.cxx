@@ -1,6 +1,7 @@
 #include "Input/InputMesh.h"
 
 #include "Input/CellCorners.h"
+#include "Input/InputValidation.h"
 #include "Input/PointCoordinates.h"
 #include "Pieces/PieceArrays.h"
 
@@ -74,15 +75,7 @@ private:
 
   void CheckIds(Id cell, vtkIdType size, const vtkIdType* ids) const
   {
-    for (vtkIdType k = 0; k < size; ++k)
-    {
-      if (ids[k] < 0 || ids[k] >= static_cast<vtkIdType>(points_.size()))
-      {
-        throw InvalidInput("Cell " + std::to_string(cell) + " uses point " +
-                           std::to_string(ids[k]) + ", but the mesh has " +
-                           std::to_string(points_.size()) + " points. Clean the mesh first.");
-      }
-    }
+    RequireCorners(cell, size, ids, static_cast<vtkIdType>(points_.size()), "mesh");
   }
 
   const std::vector<Vec3>& points_;

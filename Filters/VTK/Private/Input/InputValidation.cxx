@@ -95,4 +95,18 @@ void RequireSoundCells(vtkDataSet* input)
   }
 }
 
+void RequireCorners(
+  Id cell, vtkIdType size, const vtkIdType* ids, vtkIdType points, const char* whole)
+{
+  for (vtkIdType k = 0; k < size; ++k)
+  {
+    if (ids[k] < 0 || ids[k] >= points)
+    {
+      throw InvalidInput("Cell " + std::to_string(cell) + " uses point " + std::to_string(ids[k]) +
+                         ", but the " + whole + " has " + std::to_string(points) +
+                         " points. Clean the mesh first.");
+    }
+  }
+}
+
 } // namespace gridfem

@@ -5,6 +5,8 @@
 
 #include "Solvers/Requirements.h"
 
+#include "vtkType.h"
+
 class vtkDataSet;
 
 namespace gridfem
@@ -21,6 +23,12 @@ void RequireNoVolume(vtkDataSet* piece);
 /// vtkPolyData may still name points that do not exist. The cells of a vtkUnstructuredGrid may not,
 /// because VTK reads them unchecked. The data set may be null.
 void RequireSoundCells(vtkDataSet* input);
+
+/// Throws InvalidInput, naming the cell, if one of its corners is a point that does not exist.
+/// @param points  the number of points
+/// @param whole   has these points: "mesh" or "piece"
+void RequireCorners(
+  Id cell, vtkIdType size, const vtkIdType* ids, vtkIdType points, const char* whole);
 
 } // namespace gridfem
 

@@ -112,9 +112,8 @@ vtkSmartPointer<vtkDataArray> JoinedArrays::CopyTogether() const
 {
   const int components = std::accumulate(parts_.begin(), parts_.end(), 0,
     [](int sum, const Part& part) { return sum + part.array.array->GetNumberOfComponents(); });
-  auto joined = vtkSmartPointer<vtkDoubleArray>::New();
-  joined->SetNumberOfComponents(components);
-  SetTuples(joined, parts_.front().array.array->GetNumberOfTuples());
+  auto joined =
+    NewArray<vtkDoubleArray>(nullptr, parts_.front().array.array->GetNumberOfTuples(), components);
   int c = 0;
   for (const Part& part : parts_)
   {

@@ -1,11 +1,11 @@
 #include "Input/TrackedMesh.h"
 
 #include "Pieces/DataMessage.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkInformation.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
@@ -22,16 +22,6 @@ std::array<vtkIdType, 3> CountsOf(vtkPolyData* data)
 vtkAbstractArray* GhostArrayOf(vtkPolyData* data)
 {
   return data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
-}
-
-bool AreSame(vtkCellArray* a, vtkCellArray* b)
-{
-  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
-  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
-  return a == b || (ours == theirs &&
-                     (ours == 0 ||
-                       (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
-                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray()))));
 }
 
 } // namespace
@@ -54,16 +44,14 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
   }
   ghosts_ = GhostArrayOf(data);
   counts_ = CountsOf(data);
-  vtkInformation* about = data->GetInformation();
-  time_ = about->Has(vtkDataObject::DATA_TIME_STEP())
-            ? std::make_optional(about->Get(vtkDataObject::DATA_TIME_STEP()))
-            : std::nullopt;
+  time_ = TimeOf(data);
 }
 
 bool TrackedMesh::HasCellsOf(vtkPolyData* data) const
 {
-  return counts_ == CountsOf(data) && AreSame(cells_[0], data->GetPolys()) &&
-         AreSame(cells_[1], data->GetStrips()) && HaveSameContents(ghosts_, GhostArrayOf(data));
+  return counts_ == CountsOf(data) && HaveSameCells(cells_[0], data->GetPolys()) &&
+         HaveSameCells(cells_[1], data->GetStrips()) &&
+         HaveSameContents(ghosts_, GhostArrayOf(data));
 }
 
 bool TrackedMesh::Follow(vtkPolyData* data, const InputMesh& reference)

@@ -3,6 +3,7 @@
 #include "Input/PointCoordinates.h"
 #include "Output/ClippedFans.h"
 #include "Output/InterpolatedArrays.h"
+#include "Output/SolverOutput.h"
 #include "Pipeline/Allocation.h"
 
 #include "Base/Errors.h"
@@ -14,7 +15,6 @@
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -29,31 +29,6 @@ namespace gridfem
 {
 namespace
 {
-
-vtkSmartPointer<vtkIdTypeArray> NewIds(const char* name, Id tuples, int components = 1)
-{
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  SetTuples(array, tuples);
-  return array;
-}
-
-vtkSmartPointer<vtkIntArray> NewInts(const char* name, Id tuples, int components = 1)
-{
-  auto array = vtkSmartPointer<vtkIntArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  SetTuples(array, tuples);
-  return array;
-}
-
-void AddInt(vtkPolyData* output, const char* name, int value)
-{
-  auto array = NewInts(name, 1);
-  array->SetValue(0, value);
-  output->GetFieldData()->AddArray(array);
-}
 
 /// Returns the input's points, then the cut points. Points of joined seams are at their common
 /// place, so that the clipped mesh is connected there when it is read again.
@@ -105,10 +80,8 @@ template<class Ids>
 vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int threads)
 {
   const Id count = clipped.NumberOfTriangles();
-  vtkNew<Ids> offsets;
-  vtkNew<Ids> connectivity;
-  SetTuples(offsets, count + 1);
-  SetTuples(connectivity, 3 * count);
+  auto offsets = NewArray<Ids>(nullptr, count + 1);
+  auto connectivity = NewArray<Ids>(nullptr, 3 * count);
   using Value = typename Ids::ValueType;
   Value* offset = offsets->GetPointer(0);
   Value* corner = connectivity->GetPointer(0);
@@ -158,11 +131,9 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped,
   const std::vector<MortonKey>& cells, int threads, vtkPolyData* output)
 {
   const std::vector<Id> place = PlacesOfCells(clipped.cells, cells);
-  auto source = NewIds(SourceCellIdName, clipped.NumberOfTriangles());
-  auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
-  vtkNew<vtkSignedCharArray> color;
-  color->SetName(OctreeCellColorName);
-  SetTuples(color, clipped.NumberOfTriangles());
+  auto source = NewArray<vtkIdTypeArray>(SourceCellIdName, clipped.NumberOfTriangles());
+  auto octree = NewArray<vtkIdTypeArray>(OctreeCellIdName, clipped.NumberOfTriangles());
+  auto color = NewArray<vtkSignedCharArray>(OctreeCellColorName, clipped.NumberOfTriangles());
   signed char* colors = color->GetPointer(0);
   vtkIdType* sources = source->GetPointer(0);
   vtkIdType* octreeCells = octree->GetPointer(0);
@@ -182,24 +153,18 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped,
 
 void AddGrid(const Grid& grid, const std::vector<MortonKey>& keys, vtkPolyData* output)
 {
-  auto cells = NewInts(OctreeCellsName, static_cast<Id>(keys.size()), 3);
+  auto cells = NewArray<vtkIntArray>(OctreeCellsName, static_cast<Id>(keys.size()), 3);
   for (std::size_t cell = 0; cell < keys.size(); ++cell)
   {
     cells->SetTypedTuple(static_cast<vtkIdType>(cell), MortonDecode(keys[cell]).data());
   }
   output->GetFieldData()->AddArray(cells);
 
-  vtkNew<vtkDoubleArray> origin;
-  origin->SetName(GridOriginName);
-  origin->SetNumberOfComponents(3);
-  origin->InsertNextTuple(grid.origin.data());
+  auto origin = NewArray<vtkDoubleArray>(GridOriginName, 1, 3);
+  origin->SetTypedTuple(0, grid.origin.data());
   output->GetFieldData()->AddArray(origin);
-
-  vtkNew<vtkDoubleArray> spacing;
-  spacing->SetName(GridSpacingName);
-  spacing->InsertNextValue(grid.spacing);
-  output->GetFieldData()->AddArray(spacing);
-  AddInt(output, GridDepthName, grid.depth);
+  AddFieldNumber(output, GridSpacingName, grid.spacing);
+  AddFieldInt(output, GridDepthName, grid.depth);
 }
 
 } // namespace
@@ -223,7 +188,7 @@ void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedM
   frame->SetPolys(MakeTriangles(part, threads));
   AddCellIds(mesh, part, cells, threads, frame);
   AddGrid(part.grid, cells, frame);
-  AddInt(frame, WeldCoincidentPointsName, weldCoincidentPoints);
+  AddFieldInt(frame, WeldCoincidentPointsName, weldCoincidentPoints);
 }
 
 void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
@@ -280,19 +245,16 @@ void WriteBasis(const PatchLevel& finest, const std::vector<MortonKey>& cells,
   FunctionSupport support, const std::vector<Id>& cellPatch, bool weldCoincidentPoints,
   vtkPolyData* output)
 {
-  auto patchId = NewIds(PatchIdName, static_cast<Id>(cellPatch.size()));
-  std::copy(cellPatch.begin(), cellPatch.end(), patchId->GetPointer(0));
-  output->GetCellData()->AddArray(patchId);
+  output->GetCellData()->AddArray(MakeIdArray(PatchIdName, cellPatch));
 
   const std::vector<signed char> colors = ColorsOfPatches(finest);
-  vtkNew<vtkSignedCharArray> patchColor;
-  patchColor->SetName(PatchColorName);
-  SetTuples(patchColor, static_cast<Id>(cellPatch.size()));
+  auto patchColor = NewArray<vtkSignedCharArray>(PatchColorName, static_cast<Id>(cellPatch.size()));
   std::transform(cellPatch.begin(), cellPatch.end(), patchColor->GetPointer(0),
     [&](Id patch) { return patch < 0 ? static_cast<signed char>(-1) : colors[patch]; });
   output->GetCellData()->AddArray(patchColor);
-  auto patchCell = NewIds(PatchCellIdName, finest.NumberOfPatches());
-  auto basisIds = NewIds(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);
+  auto patchCell = NewArray<vtkIdTypeArray>(PatchCellIdName, finest.NumberOfPatches());
+  auto basisIds =
+    NewArray<vtkIdTypeArray>(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);
   for (Id patch = 0; patch < finest.NumberOfPatches(); ++patch)
   {
     const auto cell = std::lower_bound(cells.begin(), cells.end(), finest.cell[patch]);
@@ -304,9 +266,9 @@ void WriteBasis(const PatchLevel& finest, const std::vector<MortonKey>& cells,
   }
   output->GetFieldData()->AddArray(patchCell);
   output->GetFieldData()->AddArray(basisIds);
-  AddInt(output, NumberOfBasisFunctionsName, finest.numberOfFunctions);
-  AddInt(output, ConnectivityAwareName, support == FunctionSupport::ConnectivityAware);
-  AddInt(output, WeldCoincidentPointsName, weldCoincidentPoints);
+  AddFieldInt(output, NumberOfBasisFunctionsName, finest.numberOfFunctions);
+  AddFieldInt(output, ConnectivityAwareName, support == FunctionSupport::ConnectivityAware);
+  AddFieldInt(output, WeldCoincidentPointsName, weldCoincidentPoints);
 }
 
 void PassArrays(vtkPolyData* from, vtkPolyData* to)

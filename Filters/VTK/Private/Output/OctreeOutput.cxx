@@ -44,15 +44,6 @@ vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
   return points;
 }
 
-template<class Array>
-vtkSmartPointer<Array> NewArray(const char* name, Id count)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  SetTuples(array, count);
-  return array;
-}
-
 /// Makes cells of `size` points each, whose ids follow each other in `connectivity`.
 vtkSmartPointer<vtkCellArray> CellsOfSize(vtkIdTypeArray* connectivity, int size)
 {

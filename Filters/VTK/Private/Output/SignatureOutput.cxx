@@ -29,13 +29,6 @@ void AddSignature(vtkPolyData* output, const char* name, const MultiVector& valu
   output->GetPointData()->AddArray(array);
 }
 
-void AddNumbers(
-  vtkPolyData* output, const char* name, const std::vector<double>& values, int precision)
-{
-  const Eigen::Map<const Eigen::VectorXd> column(values.data(), values.size());
-  output->GetPointData()->AddArray(MakePointArray(name, column, precision));
-}
-
 } // namespace
 
 void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPolyData* output)
@@ -53,9 +46,10 @@ void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPo
 
 void WriteModeDistances(const SignatureSolver::Result& result, int precision, vtkPolyData* output)
 {
-  AddNumbers(output, "DiffusionDistance", result.diffusionDistance, precision);
-  AddNumbers(output, "BiharmonicDistance", result.biharmonicDistance, precision);
-  output->GetPointData()->SetActiveScalars("BiharmonicDistance");
+  vtkPointData* points = output->GetPointData();
+  points->AddArray(MakePointArray("DiffusionDistance", result.diffusionDistance, precision));
+  points->AddArray(MakePointArray("BiharmonicDistance", result.biharmonicDistance, precision));
+  points->SetActiveScalars("BiharmonicDistance");
 }
 
 void WriteSurrogates(const SignatureSolver::Result& result, int dataType, vtkPolyData* output)

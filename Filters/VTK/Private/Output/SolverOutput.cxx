@@ -29,12 +29,17 @@ namespace
 template<class Array>
 vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& values)
 {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(static_cast<int>(values.cols()));
-  SetTuples(array, values.rows());
+  auto array = NewArray<Array>(name, values.rows(), static_cast<int>(values.cols()));
   std::transform(values.data(), values.data() + values.size(), array->GetPointer(0),
     [](double value) { return static_cast<typename Array::ValueType>(value); });
+  return array;
+}
+
+template<class Array, class Value>
+vtkSmartPointer<Array> CopyValues(const char* name, const std::vector<Value>& values)
+{
+  auto array = NewArray<Array>(name, static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
 }
 
@@ -70,19 +75,12 @@ void ColorByCells(vtkPolyData* output, const char* name)
 
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids)
 {
-  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
-  array->SetName(name);
-  SetTuples(array, static_cast<vtkIdType>(ids.size()));
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
-  return array;
+  return CopyValues<vtkIdTypeArray>(name, ids);
 }
 
 void AddFieldInt(vtkPolyData* output, const char* name, int value)
 {
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(CopyValues<vtkIntArray>(name, std::vector<int>{ value }));
 }
 
 void AddFieldNumber(vtkPolyData* output, const char* name, double value)
@@ -92,11 +90,7 @@ void AddFieldNumber(vtkPolyData* output, const char* name, double value)
 
 void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  SetTuples(array, static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  output->GetFieldData()->AddArray(array);
+  output->GetFieldData()->AddArray(CopyValues<vtkDoubleArray>(name, values));
 }
 
 void KeepUnsolved(vtkDataArray* given, MultiVector& values)
@@ -202,20 +196,12 @@ std::string ShortNumber(double number)
 
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)
 {
-  vtkNew<vtkDoubleArray> column;
-  column->SetName(name);
-  SetTuples(column, static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), column->GetPointer(0));
-  table->AddColumn(column);
+  table->AddColumn(CopyValues<vtkDoubleArray>(name, values));
 }
 
 void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values)
 {
-  vtkNew<vtkIntArray> column;
-  column->SetName(name);
-  SetTuples(column, static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), column->GetPointer(0));
-  table->AddColumn(column);
+  table->AddColumn(CopyValues<vtkIntArray>(name, values));
 }
 
 void WriteHistory(const SolveReport& report, vtkTable* table)

@@ -30,7 +30,7 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 /// Makes a cell array active, and no point array, because ParaView colors by points first.
 void ColorByCells(vtkPolyData* output, const char* name);
 
-/// Returns an array of ids of points.
+/// Returns an array of ids with one component.
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
 
 /// Returns the array of a solution for a chosen array, with the names of its components. It is of

@@ -72,14 +72,6 @@ bool HaveSameStrings(vtkStringArray* a, vtkStringArray* b)
   return true;
 }
 
-template<class Ids>
-vtkSmartPointer<Ids> NewIds(vtkIdType count)
-{
-  auto ids = vtkSmartPointer<Ids>::New();
-  SetTuples(ids, count);
-  return ids;
-}
-
 } // namespace
 
 bool CanTravel(vtkAbstractArray* array)
@@ -105,6 +97,16 @@ bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b)
   }
   vtkStringArray* texts = vtkStringArray::SafeDownCast(a);
   return texts && HaveSameStrings(texts, vtkStringArray::SafeDownCast(b));
+}
+
+bool HaveSameCells(vtkCellArray* a, vtkCellArray* b)
+{
+  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
+  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
+  return a == b || (ours == theirs &&
+                     (ours == 0 ||
+                       (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray()))));
 }
 
 void DataMessage::PutBytes(const void* bytes, std::size_t count)
@@ -358,11 +360,13 @@ vtkSmartPointer<vtkCellArray> DataMessage::TakeCells()
   };
   if (isLong)
   {
-    take(NewIds<vtkTypeInt64Array>(count + 1), NewIds<vtkTypeInt64Array>(corners));
+    using Ids = vtkTypeInt64Array;
+    take(NewArray<Ids>(nullptr, count + 1), NewArray<Ids>(nullptr, corners));
   }
   else
   {
-    take(NewIds<vtkTypeInt32Array>(count + 1), NewIds<vtkTypeInt32Array>(corners));
+    using Ids = vtkTypeInt32Array;
+    take(NewArray<Ids>(nullptr, count + 1), NewArray<Ids>(nullptr, corners));
   }
   return cells;
 }

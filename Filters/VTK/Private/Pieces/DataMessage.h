@@ -97,6 +97,9 @@ bool CanTravel(vtkAbstractArray* array);
 /// Whether two arrays have the same type, name, shape and bits. Either may be null.
 bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b);
 
+/// Whether two cell arrays have the same cells, bit by bit. Null counts as no cells.
+bool HaveSameCells(vtkCellArray* a, vtkCellArray* b);
+
 } // namespace gridfem
 
 #endif

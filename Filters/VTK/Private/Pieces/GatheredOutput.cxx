@@ -50,22 +50,11 @@ bool HasCellsOf(vtkPolyData* output, vtkPolyData* input)
          are(output->GetPolys(), input->GetPolys()) && are(output->GetStrips(), input->GetStrips());
 }
 
-vtkSmartPointer<vtkAbstractArray> NewLike(vtkAbstractArray* array)
-{
-  vtkSmartPointer<vtkAbstractArray> made;
-  made.TakeReference(vtkAbstractArray::CreateArray(array->GetDataType()));
-  made->SetName(array->GetName());
-  made->SetNumberOfComponents(array->GetNumberOfComponents());
-  made->CopyComponentNames(array);
-  return made;
-}
-
 /// Returns the tuples at some places. Missing places give NaN or 0.
 vtkSmartPointer<vtkAbstractArray> TuplesAt(
   vtkAbstractArray* array, const std::vector<vtkIdType>& places)
 {
-  vtkSmartPointer<vtkAbstractArray> picked = NewLike(array);
-  SetTuples(picked, static_cast<vtkIdType>(places.size()));
+  const auto picked = MakeLike(array, static_cast<vtkIdType>(places.size()));
   auto* numbers = vtkDataArray::SafeDownCast(picked);
   const double nothing = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   for (std::size_t k = 0; k < places.size(); ++k)
@@ -221,7 +210,7 @@ void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank,
   for (vtkDataSetAttributes* data : AllAttributesOf(output))
   {
     vtkNew<vtkFieldData> none;
-    ForEachArray(data, [&](vtkAbstractArray* array) { none->AddArray(NewLike(array)); });
+    ForEachArray(data, [&](vtkAbstractArray* array) { none->AddArray(MakeLike(array, 0)); });
     message.PutArrays(none, -1);
     PutActive(data, message);
   }

@@ -4,6 +4,7 @@
 #include "Pieces/GatheredOutput.h"
 #include "Pipeline/Allocation.h"
 #include "Pipeline/InformationCopy.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "Base/Errors.h"
 
@@ -277,10 +278,9 @@ std::vector<Bytes> GatheredRanks::Parts(
     for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
     {
       vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-      vtkInformation* info = output->GetInformation();
-      const bool hasTime = info->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
-      message.Put(hasTime);
-      message.Put(hasTime ? info->Get(vtkDataObject::DATA_TIME_STEP()) : 0.0);
+      const std::optional<double> time = TimeOf(output);
+      message.Put(time.has_value());
+      message.Put(time.value_or(0.0));
       PutPart(output, surface_, rank, message);
     }
     parts.push_back(message.Release());
@@ -300,15 +300,7 @@ void GatheredRanks::TakeParts(
     const bool hasTime = message.Take<bool>();
     const double time = message.Take<double>();
     TakePart(message, own_, output);
-    vtkInformation* info = output->GetInformation();
-    if (hasTime)
-    {
-      info->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    }
-    else
-    {
-      info->Remove(vtkDataObject::DATA_TIME_STEP());
-    }
+    SetTime(output, hasTime ? std::make_optional(time) : std::nullopt);
   }
 }
 

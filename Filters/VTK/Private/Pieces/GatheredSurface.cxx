@@ -1,6 +1,5 @@
 #include "Pieces/GatheredSurface.h"
 
-#include "Input/CellCorners.h"
 #include "Input/InputValidation.h"
 #include "Pieces/DataMessage.h"
 #include "Pieces/PieceJoiner.h"
@@ -10,13 +9,10 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace gridfem
 {
@@ -33,15 +29,6 @@ bool HaveSameArrays(vtkFieldData* a, vtkFieldData* b)
   return areSame;
 }
 
-bool HaveSameCells(vtkCellArray* a, vtkCellArray* b)
-{
-  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
-  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
-  return ours == theirs &&
-         (ours == 0 || (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
-                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray())));
-}
-
 bool AreSamePiece(vtkPolyData* a, vtkPolyData* b)
 {
   const auto ours = CellsOf(a);
@@ -56,13 +43,6 @@ bool AreSamePiece(vtkPolyData* a, vtkPolyData* b)
   return HaveSameContents(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
          HaveSameArrays(a->GetPointData(), b->GetPointData()) &&
          HaveSameArrays(a->GetCellData(), b->GetCellData());
-}
-
-std::vector<vtkIdType> Ascending(vtkIdType count)
-{
-  std::vector<vtkIdType> places(count);
-  std::iota(places.begin(), places.end(), 0);
-  return places;
 }
 
 GatheredSurface OnlyPiece(vtkPolyData* piece)
@@ -116,30 +96,8 @@ void AddSurface(StageKey& key, vtkPolyData* surface)
 void RequireGoodCells(vtkPolyData* surface)
 {
   RequireSoundCells(surface);
-  const vtkIdType points = surface->GetNumberOfPoints();
-  vtkIdType first = 0;
-  vtkNew<vtkIdList> storage;
-  for (vtkCellArray* cells :
-    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-  {
-    const vtkIdType count = cells ? cells->GetNumberOfCells() : 0;
-    for (vtkIdType cell = 0; cell < count; ++cell)
-    {
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      GetCorners(cells, cell, size, ids, storage);
-      for (vtkIdType k = 0; k < size; ++k)
-      {
-        if (ids[k] < 0 || ids[k] >= points)
-        {
-          throw InvalidInput("Cell " + std::to_string(first + cell) + " uses point " +
-                             std::to_string(ids[k]) + ", but the piece has " +
-                             std::to_string(points) + " points. Clean the mesh first.");
-        }
-      }
-    }
-    first += count;
-  }
+  ForEachCell(surface, [&](vtkIdType cell, const vtkIdType* ids, vtkIdType size)
+    { RequireCorners(cell, size, ids, surface->GetNumberOfPoints(), "piece"); });
 }
 
 GatheredSurface JoinPieces(

@@ -1,14 +1,14 @@
 #include "Pieces/JoinedBlocks.h"
 
+#include "Input/InputArray.h"
 #include "Input/InputValidation.h"
 #include "Pieces/GatheredOutput.h"
+#include "Pipeline/PipelineTime.h"
 
-#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -38,25 +38,6 @@ void ForEachBlock(vtkCompositeDataSet* whole, Body&& body)
     {
       body(data, leaf.Get());
     }
-  }
-}
-
-bool HasArray(vtkPolyData* surface, const std::string& name)
-{
-  return surface->GetPointData()->HasArray(name.c_str()) ||
-         surface->GetCellData()->HasArray(name.c_str());
-}
-
-/// Gives the whole the time of its blocks.
-void CopyTime(vtkInformation* from, vtkInformation* to)
-{
-  if (from->Has(vtkDataObject::DATA_TIME_STEP()))
-  {
-    to->Set(vtkDataObject::DATA_TIME_STEP(), from->Get(vtkDataObject::DATA_TIME_STEP()));
-  }
-  else
-  {
-    to->Remove(vtkDataObject::DATA_TIME_STEP());
   }
 }
 
@@ -184,7 +165,7 @@ vtkInformationVector** JoinedBlocks::Inputs(
   }
   if (!blocks_.empty())
   {
-    CopyTime(blocks_.front().data->GetInformation(), entry_->surface.whole->GetInformation());
+    SetTime(entry_->surface.whole, TimeOf(blocks_.front().data));
   }
   return inputs_.Of(inputs, ports, entry_->surface.whole);
 }

@@ -72,9 +72,8 @@ void WriteJoinedArrays(const Pieces& pieces, const std::vector<ArraysOfPieces>& 
 void WriteHiddenCells(const Pieces& pieces, const Numbering& cells,
   const std::vector<vtkIdType>& sources, vtkPolyData* whole)
 {
-  vtkNew<vtkUnsignedCharArray> hidden;
-  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
-  SetTuples(hidden, static_cast<vtkIdType>(sources.size()));
+  auto hidden = NewArray<vtkUnsignedCharArray>(
+    vtkDataSetAttributes::GhostArrayName(), static_cast<vtkIdType>(sources.size()));
   unsigned char* next = hidden->GetPointer(0);
   bool isAny = false;
   for (const vtkIdType cell : sources)

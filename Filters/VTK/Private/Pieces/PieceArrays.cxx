@@ -9,6 +9,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gridfem
 {
@@ -102,6 +103,13 @@ vtkSmartPointer<vtkAbstractArray> NewArrayLike(const ArraysOfPieces& arrays)
 std::array<vtkCellArray*, CellKinds> CellsOf(vtkPolyData* piece)
 {
   return { piece->GetVerts(), piece->GetLines(), piece->GetPolys(), piece->GetStrips() };
+}
+
+std::vector<vtkIdType> Ascending(vtkIdType count)
+{
+  std::vector<vtkIdType> places(count);
+  std::iota(places.begin(), places.end(), 0);
+  return places;
 }
 
 vtkDataSetAttributes* PointDataOf(vtkPolyData* piece)

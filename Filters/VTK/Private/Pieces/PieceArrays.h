@@ -49,6 +49,9 @@ void ForEachCell(vtkPolyData* piece, Body&& body)
   }
 }
 
+/// Returns the numbers 0, 1, 2 ... below `count`.
+std::vector<vtkIdType> Ascending(vtkIdType count);
+
 /// Point data or cell data.
 using AttributesOf = vtkDataSetAttributes* (*)(vtkPolyData*);
 vtkDataSetAttributes* PointDataOf(vtkPolyData* piece);

@@ -57,8 +57,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOfPoints(
 /// Returns the source triangle of each clipped triangle.
 vtkSmartPointer<vtkIdTypeArray> TrianglesOfFans(const ClippedMesh& clipped, int threads)
 {
-  auto triangles = vtkSmartPointer<vtkIdTypeArray>::New();
-  SetTuples(triangles, clipped.NumberOfTriangles());
+  auto triangles = NewArray<vtkIdTypeArray>(nullptr, clipped.NumberOfTriangles());
   vtkIdType* const triangle = triangles->GetPointer(0);
   ForEachFan(clipped, threads,
     [&](Id piece, Id begin, Id end)

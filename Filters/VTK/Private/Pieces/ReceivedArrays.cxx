@@ -196,13 +196,6 @@ std::vector<vtkIdType> Inverse(const std::vector<Index>& places)
   return inverse;
 }
 
-std::vector<vtkIdType> Count(vtkIdType count)
-{
-  std::vector<vtkIdType> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), vtkIdType{ 0 });
-  return numbers;
-}
-
 } // namespace
 
 void SendArrays(const Communicator& ranks, const Redistribution& distribution, vtkPolyData* piece,
@@ -257,7 +250,7 @@ void SendArrays(const Communicator& ranks, const Redistribution& distribution, v
       }
       TakeTuples(messages, points, pointKinds, Inverse(distribution.PlacesOfPoints()), atPoints);
       const Id count = std::accumulate(triangles.begin(), triangles.end(), Id{ 0 });
-      TakeTuples(messages, triangles, cellKinds, Count(count), onTriangles);
+      TakeTuples(messages, triangles, cellKinds, Ascending(count), onTriangles);
     });
 }
 

@@ -15,14 +15,6 @@ namespace
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
-std::optional<double> TimeOf(vtkDataObject* data)
-{
-  vtkInformation* info = data ? data->GetInformation() : nullptr;
-  return info && info->Has(vtkDataObject::DATA_TIME_STEP())
-           ? std::make_optional(info->Get(vtkDataObject::DATA_TIME_STEP()))
-           : std::nullopt;
-}
-
 std::optional<double> FirstStep(vtkInformation* info)
 {
   return info->Length(Pipeline::TIME_STEPS()) > 0
@@ -53,6 +45,27 @@ void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* output
     vtkInformation* info = outputs->GetInformationObject(port);
     info->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
     info->Set(Pipeline::TIME_RANGE(), range, 2);
+  }
+}
+
+std::optional<double> TimeOf(vtkDataObject* data)
+{
+  vtkInformation* info = data ? data->GetInformation() : nullptr;
+  return info && info->Has(vtkDataObject::DATA_TIME_STEP())
+           ? std::make_optional(info->Get(vtkDataObject::DATA_TIME_STEP()))
+           : std::nullopt;
+}
+
+void SetTime(vtkDataObject* data, const std::optional<double>& time)
+{
+  vtkInformation* info = data->GetInformation();
+  if (time)
+  {
+    info->Set(vtkDataObject::DATA_TIME_STEP(), *time);
+  }
+  else
+  {
+    info->Remove(vtkDataObject::DATA_TIME_STEP());
   }
 }
 
@@ -129,18 +142,9 @@ void StampTime(bool hasOwnSteps, vtkInformationVector* input, vtkInformationVect
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    vtkDataObject* data = vtkDataObject::GetData(info);
-    if (!data)
+    if (vtkDataObject* data = vtkDataObject::GetData(info))
     {
-      continue;
-    }
-    if (const std::optional<double> time = OutputTime(hasOwnSteps, input, info))
-    {
-      data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), *time);
-    }
-    else
-    {
-      data->GetInformation()->Remove(vtkDataObject::DATA_TIME_STEP());
+      SetTime(data, OutputTime(hasOwnSteps, input, info));
     }
   }
 }

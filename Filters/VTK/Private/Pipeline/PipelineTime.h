@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
 
@@ -14,6 +15,12 @@ namespace gridfem
 
 /// Gives all outputs the filter's own time steps. They are ascending, at least one.
 void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* outputs);
+
+/// Returns the time of the data, if there is one. The data object may be null.
+std::optional<double> TimeOf(vtkDataObject* data);
+
+/// Writes the time of the data, or removes it.
+void SetTime(vtkDataObject* data, const std::optional<double>& time);
 
 /// Returns the time that an output is asked for, or an input by the filter, if there is one.
 std::optional<double> RequestedTime(vtkInformation* info);
