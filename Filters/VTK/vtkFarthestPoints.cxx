@@ -14,7 +14,12 @@
 
 vtkStandardNewMacro(vtkFarthestPoints);
 
-vtkFarthestPoints::vtkFarthestPoints() : Solver(std::make_unique<gridfem::FarthestPointsSolver>())
+struct vtkFarthestPoints::Internals
+{
+  gridfem::FarthestPointsSolver Solver;
+};
+
+vtkFarthestPoints::vtkFarthestPoints() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->Tolerance = 1e-4;
@@ -43,7 +48,7 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
   options.numberOfPoints = this->NumberOfPoints;
   options.firstPointId = this->FirstPointId;
   const gridfem::FarthestPointsSolver::Result& result =
-    this->Solver->Update(surface, options, { 0, state.GetProgress() });
+    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
@@ -58,7 +63,7 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
 void vtkFarthestPoints::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Solver = gridfem::FarthestPointsSolver();
+  *this->Data = Internals();
 }
 
 void vtkFarthestPoints::PrintSelf(ostream& os, vtkIndent indent)

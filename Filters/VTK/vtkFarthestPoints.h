@@ -31,11 +31,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class FarthestPointsSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkFarthestPoints : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -79,7 +74,8 @@ private:
   vtkFarthestPoints(const vtkFarthestPoints&) = delete;
   void operator=(const vtkFarthestPoints&) = delete;
 
-  std::unique_ptr<gridfem::FarthestPointsSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif

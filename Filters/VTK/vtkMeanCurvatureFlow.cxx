@@ -53,7 +53,12 @@ void WriteTable(const std::vector<Step>& steps, vtkTable* table)
 
 } // namespace
 
-vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Solver(std::make_unique<gridfem::FlowSolver>())
+struct vtkMeanCurvatureFlow::Internals
+{
+  gridfem::FlowSolver Solver;
+};
+
+vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
@@ -82,7 +87,7 @@ std::vector<double> vtkMeanCurvatureFlow::OwnTimeSteps()
 void vtkMeanCurvatureFlow::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Solver = std::make_unique<gridfem::FlowSolver>();
+  this->Data = std::make_unique<Internals>();
 }
 
 void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -90,7 +95,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::FilterState& state = *this->State;
-  gridfem::FlowSolver& solver = *this->Solver;
+  gridfem::FlowSolver& solver = this->Data->Solver;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
 

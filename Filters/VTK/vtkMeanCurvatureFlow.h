@@ -73,11 +73,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class FlowSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkMeanCurvatureFlow : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -189,7 +184,8 @@ private:
   vtkMeanCurvatureFlow(const vtkMeanCurvatureFlow&) = delete;
   void operator=(const vtkMeanCurvatureFlow&) = delete;
 
-  std::unique_ptr<gridfem::FlowSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif

@@ -11,8 +11,12 @@
 
 vtkStandardNewMacro(vtkParameterization);
 
-vtkParameterization::vtkParameterization()
-  : Solver(std::make_unique<gridfem::ParameterizationSolver>())
+struct vtkParameterization::Internals
+{
+  gridfem::ParameterizationSolver Solver;
+};
+
+vtkParameterization::vtkParameterization() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfOutputPorts(2);
 }
@@ -29,7 +33,7 @@ void vtkParameterization::Compute(vtkInformationVector** inputs, vtkInformationV
   options.holeSize = this->HoleSize;
   options.extraCuts = this->ExtraCuts;
   const gridfem::ParameterizationSolver::Result& result =
-    this->Solver->Update(surface, options, { 0, state.GetProgress() });
+    this->Data->Solver.Update(surface, options, { 0, state.GetProgress() });
 
   vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
   mesh->ShallowCopy(input);
@@ -41,7 +45,7 @@ void vtkParameterization::Compute(vtkInformationVector** inputs, vtkInformationV
 void vtkParameterization::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Solver = gridfem::ParameterizationSolver();
+  *this->Data = Internals();
 }
 
 void vtkParameterization::PrintSelf(ostream& os, vtkIndent indent)

@@ -45,11 +45,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class ParameterizationSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkParameterization : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -107,7 +102,8 @@ private:
   vtkParameterization(const vtkParameterization&) = delete;
   void operator=(const vtkParameterization&) = delete;
 
-  std::unique_ptr<gridfem::ParameterizationSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif

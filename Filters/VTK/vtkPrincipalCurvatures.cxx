@@ -13,8 +13,12 @@
 
 vtkStandardNewMacro(vtkPrincipalCurvatures);
 
-vtkPrincipalCurvatures::vtkPrincipalCurvatures()
-  : Solver(std::make_unique<gridfem::CurvatureSolver>())
+struct vtkPrincipalCurvatures::Internals
+{
+  gridfem::CurvatureSolver Solver;
+};
+
+vtkPrincipalCurvatures::vtkPrincipalCurvatures() : Data(std::make_unique<Internals>())
 {
   const gridfem::SolveOptions solve = gridfem::CurvatureSolver::Options().equation.solve;
   this->Tolerance = solve.tolerance;
@@ -36,7 +40,7 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
   options.smoothingScale = this->SmoothingScale;
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::CurvatureSolver::Result& result =
-    this->Solver->Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.95) });
+    this->Data->Solver.Update(surface, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
@@ -61,7 +65,7 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
 void vtkPrincipalCurvatures::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Solver = gridfem::CurvatureSolver();
+  *this->Data = Internals();
 }
 
 void vtkPrincipalCurvatures::PrintSelf(ostream& os, vtkIndent indent)

@@ -44,11 +44,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class CurvatureSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkPrincipalCurvatures : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -80,7 +75,8 @@ private:
   vtkPrincipalCurvatures(const vtkPrincipalCurvatures&) = delete;
   void operator=(const vtkPrincipalCurvatures&) = delete;
 
-  std::unique_ptr<gridfem::CurvatureSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif

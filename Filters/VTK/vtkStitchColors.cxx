@@ -137,7 +137,12 @@ vtkSmartPointer<vtkDataArray> WithValues(
 
 } // namespace
 
-vtkStitchColors::vtkStitchColors() : Solver(std::make_unique<gridfem::StitchSolver>())
+struct vtkStitchColors::Internals
+{
+  gridfem::StitchSolver Solver;
+};
+
+vtkStitchColors::vtkStitchColors() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->NormalStabilization = gridfem::StitchSolver::SurfaceDefaults().choice.normalStabilization;
@@ -162,7 +167,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   state.options.functionsPerPoint = gridfem::StitchSolver::FunctionsPerPoint(options);
   const gridfem::Progress progress = state.GetProgress();
   const gridfem::StitchSolver::Result& stitched =
-    this->Solver->Update(surface, { surface.Given(colors), surface.Given(labels) }, options,
+    this->Data->Solver.Update(surface, { surface.Given(colors), surface.Given(labels) }, options,
       { surface.Threads(), progress.Part(0.0, 0.95) });
 
   output->ShallowCopy(input);
@@ -193,7 +198,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
 void vtkStitchColors::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Solver = gridfem::StitchSolver();
+  *this->Data = Internals();
 }
 
 void vtkStitchColors::PrintSelf(ostream& os, vtkIndent indent)

@@ -38,11 +38,6 @@
 
 #include "vtkPoissonAlgorithm.h"
 
-namespace gridfem
-{
-class StitchSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkPoissonAlgorithm
 {
 public:
@@ -97,7 +92,8 @@ private:
   vtkStitchColors(const vtkStitchColors&) = delete;
   void operator=(const vtkStitchColors&) = delete;
 
-  std::unique_ptr<gridfem::StitchSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif

@@ -17,6 +17,11 @@
 
 vtkStandardNewMacro(vtkSurfaceGradient);
 
+struct vtkSurfaceGradient::Internals
+{
+  gridfem::GradientSolver Solver;
+};
+
 namespace
 {
 
@@ -53,7 +58,7 @@ void WriteArrays(const std::vector<Derived>& fields,
 
 } // namespace
 
-vtkSurfaceGradient::vtkSurfaceGradient() : Solver(std::make_unique<gridfem::GradientSolver>())
+vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->NormalStabilization = gridfem::GradientSolver::SurfaceDefaults().choice.normalStabilization;
@@ -77,7 +82,7 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
   options.equation = state.options;
   options.hodgeDecomposition = this->HodgeDecomposition;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::GradientSolver::Result& result = this->Solver->Update(
+  const gridfem::GradientSolver::Result& result = this->Data->Solver.Update(
     surface, { surface.Given(array) }, options, { surface.Threads(), progress.Part(0.0, 0.95) });
 
   const gridfem::Id cells = input ? input->GetNumberOfCells() : 0;
@@ -107,7 +112,7 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkSurfaceGradient::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Solver = gridfem::GradientSolver();
+  *this->Data = Internals();
 }
 
 void vtkSurfaceGradient::PrintSelf(ostream& os, vtkIndent indent)

@@ -61,11 +61,6 @@
 
 #include "vtkPoissonAlgorithm.h"
 
-namespace gridfem
-{
-class GradientSolver;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkPoissonAlgorithm
 {
 public:
@@ -97,7 +92,8 @@ private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
   void operator=(const vtkSurfaceGradient&) = delete;
 
-  std::unique_ptr<gridfem::GradientSolver> Solver;
+  struct Internals;
+  std::unique_ptr<Internals> Data;
 };
 
 #endif
