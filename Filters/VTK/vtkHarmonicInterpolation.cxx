@@ -164,6 +164,16 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   this->Warn(result.warnings);
 }
 
+void vtkHarmonicInterpolation::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkHarmonicInterpolation::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
+}
+
 void vtkHarmonicInterpolation::AddKnownValue(double point, double value)
 {
   gridfem::AddToList(this->Data->Table, { point, value }, this);

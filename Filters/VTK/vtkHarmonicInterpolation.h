@@ -24,8 +24,6 @@
  * - index 2 (optional): point data of port 2, if port 2 is connected. If none is chosen, the filter
  *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
  *   not chosen either. The MaskArray and the selection are not used then.
- * - AddFurtherArray: point data that are interpolated together with the ValueArray, at the same
- *   known points.
  *
  * If one point has several values, the filter takes their mean, and warns if they differ.
  *
@@ -89,6 +87,17 @@ public:
   void AddKnownValue(double point, double value);
   void ClearKnownValues();
   int GetNumberOfKnownValues();
+  ///@}
+
+  ///@{
+  /**
+   * Further arrays that are interpolated together with the ValueArray, at the same known points.
+   * They are point data. The result of each has the name of the array before its name, as in
+   * `Thickness_Interpolated`. All errors, and all other numbers in the field data, are then the
+   * worst of all arrays. None by default.
+   */
+  void AddFurtherArray(const char* name);
+  void ClearFurtherArrays();
   ///@}
 
   /**

@@ -131,6 +131,16 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   }
 }
 
+void vtkHeatDiffusion::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkHeatDiffusion::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
+}
+
 void vtkHeatDiffusion::FreeStages()
 {
   this->Superclass::FreeStages();

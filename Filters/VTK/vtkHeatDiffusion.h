@@ -25,7 +25,6 @@
  *   Without it the source is 0.
  * - index 2, the ConstraintArray: point data with one component. Points at which it is not 0 keep
  *   the value of time 0. The array at time 0 must be point data in this case.
- * - AddFurtherArray: arrays that are smoothed together with the array of index 0.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Diffused` (C components). It is of bytes if the array holds colors (three or four
@@ -137,6 +136,17 @@ public:
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);
   vtkBooleanMacro(BoundaryValues, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Further arrays that are smoothed together with the array of index 0, and in the same way. They
+   * are of points if this array is, else of cells. The result of each has the name of the array
+   * before its name, as in `Thickness_Diffused`. All errors, and all other numbers in the field
+   * data, are then the worst of all arrays. None by default.
+   */
+  void AddFurtherArray(const char* name);
+  void ClearFurtherArrays();
   ///@}
 
 protected:

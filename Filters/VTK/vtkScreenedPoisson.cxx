@@ -164,6 +164,16 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   }
 }
 
+void vtkScreenedPoisson::AddFurtherArray(const char* name)
+{
+  gridfem::AddFurtherArray(this, name);
+}
+
+void vtkScreenedPoisson::ClearFurtherArrays()
+{
+  gridfem::ClearFurtherArrays(this);
+}
+
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();

@@ -41,7 +41,6 @@
  * - index 6, `BoundaryFluxArray` (optional): point data, C components, in units of f over length.
  *   It is the outward slope of u minus the outward slope of s g, at points of the boundary. It
  *   cannot be combined with a MetricArray.
- * - AddFurtherArray: arrays that are solved for together with the ValueArray.
  *
  * With weights, constraints, a flux, BoundaryValues or FillUnknown, the mean is kept only on
  * connected components without a weight or constraint that holds them. The filter warns once about
@@ -188,6 +187,17 @@ public:
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);
   vtkBooleanMacro(BoundaryValues, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Further arrays that are solved for together with the array of index 0, and in the same way.
+   * They are of points if this array is, else of cells. The result of each has the name of the
+   * array before its name, as in `Thickness_Solution`. All errors, and all other numbers in the
+   * field data, are then the worst of all arrays. None by default.
+   */
+  void AddFurtherArray(const char* name);
+  void ClearFurtherArrays();
   ///@}
 
 protected:

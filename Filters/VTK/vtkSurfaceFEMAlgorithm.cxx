@@ -4,7 +4,6 @@
 #include "Input/InputArray.h"
 #include "Input/InputBlocks.h"
 #include "Input/InputValidation.h"
-#include "Input/JoinedArrays.h"
 #include "Input/SelectedPoints.h"
 #include "Input/SurfaceInput.h"
 #include "Output/BlockTables.h"
@@ -150,16 +149,6 @@ void vtkSurfaceFEMAlgorithm::ReadSelection(vtkInformationVector** inputs)
 {
   this->State->Surface().Select(
     *this->Selection, vtkSelection::GetData(inputs[this->SelectionPort]), this->JoinedInput());
-}
-
-void vtkSurfaceFEMAlgorithm::AddFurtherArray(const char* name)
-{
-  gridfem::AddFurtherArray(this, name);
-}
-
-void vtkSurfaceFEMAlgorithm::ClearFurtherArrays()
-{
-  gridfem::ClearFurtherArrays(this);
 }
 
 void vtkSurfaceFEMAlgorithm::SetBasisConnection(vtkAlgorithmOutput* output)

@@ -273,18 +273,6 @@ public:
   vtkGetMacro(ParameterUnits, int);
   ///@}
 
-  ///@{
-  /**
-   * Further arrays that are computed together with the array of index 0, and in the same way. They
-   * are of points if this array is, else of cells. The result of each has the name of the array
-   * before its name, as in `Thickness_Solution`. All errors, and all other numbers in the field
-   * data, are then the worst of all arrays. None by default. Only vtkHarmonicInterpolation,
-   * vtkHeatDiffusion and vtkScreenedPoisson use them.
-   */
-  void AddFurtherArray(const char* name);
-  void ClearFurtherArrays();
-  ///@}
-
   /**
    * The input of port 1: the basis. A filter without such a port reports an error.
    */
