@@ -195,7 +195,7 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
 
 TEST_F(SpectralSignaturesFilter, SurrogatesAreArraysLikeTheValues)
 {
-  auto data = this->WithModes(25);
+  auto data = WithModes(ToPolyData(sphere), 25);
   filter->SetInputData(data);
   filter->SetFilterType(Signatures::Surrogates);
   filter->SetNumberOfSurrogates(2);

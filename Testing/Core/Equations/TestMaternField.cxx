@@ -4,6 +4,7 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Largest.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -51,6 +52,39 @@ double Matern(double r, int smoothness)
   return x == 0.0 ? 1.0
                   : std::pow(x, smoothness) * std::cyl_bessel_k(double(smoothness), x) /
                       (std::pow(2.0, smoothness - 1) * std::tgamma(smoothness));
+}
+
+/// The covariance on a sphere of radius 1 at the angle with this cosine, by its series.
+double OnSphere(double cosine, double range, int smoothness)
+{
+  const double kappa2 = 8.0 * smoothness / (range * range);
+  double sum = 0.0;
+  double legendre = 1.0; // P_l, from P_0
+  double before = 0.0;
+  for (int l = 0; l < 2000; ++l)
+  {
+    sum += (2 * l + 1) * smoothness * std::pow(kappa2, smoothness) /
+           std::pow(kappa2 + double(l) * (l + 1), smoothness + 1) * legendre;
+    const double next = ((2 * l + 1) * cosine * legendre - l * before) / (l + 1);
+    before = legendre;
+    legendre = next;
+  }
+  return sum;
+}
+
+/// The covariances of all points with one point, without samples.
+Eigen::VectorXd CovariancesWith(
+  Id point, const std::shared_ptr<const FiniteElementSpace>& space, double range, int smoothness)
+{
+  const SparseMatrix row = space->RowsAtPoints({ point });
+  MultiVector load = MultiVector::Zero(static_cast<Id>(space->NumberOfFunctions(0)), 1);
+  for (Id k = row.rowBegin[0]; k < row.rowBegin[1]; ++k)
+  {
+    load(row.column[k], 0) = row.value[k];
+  }
+  const FieldSamples found = FieldOn(space, range, smoothness).Covariances(load);
+  EXPECT_TRUE(found.report.converged);
+  return space->ValuesAtPoints(found.coefficients).col(0);
 }
 
 /// The mean of independent numbers, and its standard error.
@@ -133,6 +167,41 @@ TEST(MaternField, KnowsTheDeviationOfTheMeanOnEachComponent)
         EXPECT_NEAR(std::sqrt(means.squaredNorm() / Samples) / exact, 1.0,
           4.0 / std::sqrt(2.0 * Samples) + 0.01);
       }
+    }
+  }
+}
+
+/// Covariances with a point, at all points up to two ranges away, to 2 % of the variance.
+TEST(MaternField, HasTheExactCovariancesOnAPlaneAndASphere)
+{
+  constexpr double Range = 0.2;
+  const TriangleMesh plane = Transform(FlatRectangle(96, 96), { 1, 2, 3 }, 0.3);
+  constexpr Id Middle = 48 * 97 + 48;
+  const TriangleMesh sphere = Transform(GeodesicSphere(48), { 1, 2, 3 }, 0.4);
+  for (const bool isOnHats : { false, true })
+  {
+    const std::shared_ptr<const FiniteElementSpace> ofPlane = BuildEither(plane, isOnHats, 7, 1e-2);
+    const std::shared_ptr<const FiniteElementSpace> ofSphere =
+      BuildEither(sphere, isOnHats, 7, 1e-2);
+    for (const int smoothness : { 1, 2, 3 })
+    {
+      const Eigen::VectorXd onPlane = CovariancesWith(Middle, ofPlane, Range, smoothness);
+      const Eigen::VectorXd onSphere = CovariancesWith(7, ofSphere, 2.5 * Range, smoothness);
+      double error = 0.0;
+      for (Id k = 0; k < onPlane.size(); ++k)
+      {
+        const double r = (plane.points[k] - plane.points[Middle]).norm() / Range;
+        error = Larger(error, r < 2.0 ? std::abs(onPlane[k] - Matern(r, smoothness)) : 0.0);
+      }
+      EXPECT_LT(error, 0.02) << "plane " << isOnHats << smoothness;
+      error = 0.0;
+      for (Id k = 0; k < onSphere.size(); ++k)
+      {
+        const double cosine = std::min(sphere.points[k].dot(sphere.points[7]), 1.0);
+        const double exact = OnSphere(cosine, 2.5 * Range, smoothness);
+        error = Larger(error, std::abs(onSphere[k] - exact));
+      }
+      EXPECT_LT(error, 0.02) << "sphere " << isOnHats << smoothness;
     }
   }
 }

@@ -53,10 +53,10 @@ TEST(CurvatureSolver, PointsOffTheSurfaceCountInNothing)
   TriangleMesh mesh = GeodesicSphere(12);
   const auto onSurface = static_cast<Id>(mesh.points.size());
   const MultiVector alone =
-    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, At(4)).numbers;
+    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, AtDepth4).numbers;
   mesh.points.resize(3 * mesh.points.size(), Vec3(0.1, 0.2, 0.3));
   const MultiVector numbers =
-    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, At(4)).numbers;
+    CurvatureSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, AtDepth4).numbers;
   EXPECT_EQ(numbers.topRows(onSurface), alone);
   EXPECT_TRUE(numbers.bottomRows(numbers.rows() - onSurface).array().isNaN().all());
 }

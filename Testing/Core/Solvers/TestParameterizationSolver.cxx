@@ -385,7 +385,7 @@ TEST(ParameterizationSolver, SaysThatAnIsometricMapHasNotConverged)
 /// No step improves a map whose triangles are flipped, so no gain of a step is known.
 TEST(IsometricMap, AFlippedStartIsReturnedWithoutAGain)
 {
-  const Disk disk = OpenToDisks(FlatRectangle(4, 4), {}).front();
+  const gridfem::Disk disk = OpenToDisks(FlatRectangle(4, 4), {}).front();
   MultiVector flipped(disk.NumberOfVertices(), 2);
   for (Index v = 0; v < disk.NumberOfVertices(); ++v)
   {
