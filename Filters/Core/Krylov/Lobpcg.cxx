@@ -46,7 +46,7 @@ private:
   bool Correct(const Progress& progress);
   bool Precondition(const Progress& progress);
   void NextVectors(const Progress& progress);
-  double Fraction() const;
+  double Fraction();
   Index FoundAndWanted() const;
   void Report();
 
@@ -61,6 +61,7 @@ private:
   BlockPreconditioner<Real> double_; // made when it is needed
   SoftLocking locking_;
   BlockReport report_;
+  double first_ = 0.0; // the largest measure so far
   double fraction_ = 0.0;
 };
 
@@ -182,9 +183,10 @@ Index BlockIteration<Real>::FoundAndWanted() const
   return std::min<Index>(options_.wanted, static_cast<Index>(pairs_.values.size()));
 }
 
-/// Progress of the slowest wanted pair, in orders of magnitude, as a fraction of the whole way.
+/// Progress of the slowest wanted pair since the first measure, in orders of magnitude, as a
+/// fraction of the whole way.
 template<class Real>
-double BlockIteration<Real>::Fraction() const
+double BlockIteration<Real>::Fraction()
 {
   const Index found = this->FoundAndWanted();
   double worst = found < options_.wanted ? 1.0 : options_.tolerance;
@@ -192,7 +194,10 @@ double BlockIteration<Real>::Fraction() const
   {
     worst = std::max(worst, locking_.Measure(j));
   }
-  return std::log(1.0 / worst) / std::log(1.0 / options_.tolerance);
+  first_ = std::max(first_, worst);
+  return worst > options_.tolerance
+           ? std::log(first_ / worst) / std::log(first_ / options_.tolerance)
+           : 1.0;
 }
 
 template<class Real>

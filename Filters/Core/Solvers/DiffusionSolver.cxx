@@ -13,7 +13,7 @@ namespace
 {
 
 /// Columns that are solved together. They fill the lanes of a vector instruction. Solving 32 at
-/// once took twice the time per column (32,492 points): their vectors leave the cache.
+/// once took twice the time per column: their vectors leave the cache.
 constexpr Id PanelColumns = 8;
 
 /// Columns that are solved together by a factor, and the number of columns from which on it pays.

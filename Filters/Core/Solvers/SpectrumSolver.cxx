@@ -54,6 +54,12 @@ void AnnounceCost(const Surface& surface, const SpectrumSolver::Input& input, Id
   input.announce(text.str(), seconds >= Hour);
 }
 
+/// The share of the preparation in the progress, as measured on scans.
+double ShareOfPreparation(int modes)
+{
+  return 1.0 / (2.3 + modes / 20.0 + double(modes) * double(modes) / 6000.0);
+}
+
 SpectrumOptions OptionsOfSpectrum(const Surface& surface, const SpectrumSolver::Input& input,
   const SpectrumSolver::Options& options)
 {
@@ -107,20 +113,21 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   const bool choose = accuracy > 0.0;
   now_ = choose ? this->FirstDepth(surface, options) : Choice();
   double done = 0.0;
+  const double prepared = ShareOfPreparation(options.numberOfModes);
   while (true)
   {
     const double end = choose ? 0.5 + 0.5 * done : 1.0;
     const Progress progress = job.progress.Part(done, end);
     if (choose)
     {
-      surface.PrepareAtDepth(now_.depth, progress.Part(0.0, 0.5));
+      surface.PrepareAtDepth(now_.depth, progress.Part(0.0, prepared));
     }
     else
     {
-      surface.Prepare(progress.Part(0.0, 0.5));
+      surface.Prepare(progress.Part(0.0, prepared));
     }
-    progress.Check(0.5);
-    this->UpdateModes(surface, input, options, progress.Part(0.5, 1.0));
+    progress.Check(prepared);
+    this->UpdateModes(surface, input, options, progress.Part(prepared, 1.0));
     result_.depth = surface.UsedOptions().space.depth;
     const int next = this->NextDepth(surface, accuracy);
     if (next == result_.depth)

@@ -64,12 +64,14 @@ std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
   return level;
 }
 
-/// The share of a level in the progress. Work grows by four per level.
+/// The share of a level in the progress. Work grows by less than four per level, because pairs of
+/// coarser levels start those of finer levels.
 Progress LevelPart(const Progress& progress, std::size_t level)
 {
-  const double setUp = 0.1;
-  const double begin = std::pow(0.25, static_cast<double>(level) + 1.0);
-  const double end = std::pow(0.25, static_cast<double>(level));
+  constexpr double setUp = 0.1;
+  constexpr double Coarser = 0.4; // measured on scans with 10 to 400 modes
+  const double begin = std::pow(Coarser, static_cast<double>(level) + 1.0);
+  const double end = std::pow(Coarser, static_cast<double>(level));
   return progress.Part(setUp + (1.0 - setUp) * begin, setUp + (1.0 - setUp) * end);
 }
 

@@ -67,10 +67,10 @@ ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, 
   {
     block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
     const int before = report.block.iterations;
-    const Progress part = progress.Part(done, 0.5 + 0.5 * done);
-    report.block = ImproveManyEigenPairs(problem, block, pairs, part);
+    const double next = 0.9 + 0.1 * done; // most lists take one round
+    report.block = ImproveManyEigenPairs(problem, block, pairs, progress.Part(done, next));
     report.block.iterations += before;
-    done = 0.5 + 0.5 * done;
+    done = next;
     const bool converged = report.block.numberOfConverged == block.wanted;
     report.cutsMultiplet = endsInside(0.0);
     if (!converged)

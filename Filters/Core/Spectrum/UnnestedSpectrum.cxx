@@ -114,9 +114,9 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
     block.maximumIterations = pairs.vectors.Columns() < found
                                 ? std::max(RandomStartIterations, options.maximumIterations)
                                 : options.maximumIterations;
-    report =
-      ImproveManyEigenPairs<double>(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
-    done = 0.5 + 0.5 * done;
+    report = ImproveManyEigenPairs<double>(
+      problem, block, pairs, progress.Part(done, 0.9 + 0.1 * done)); // mostly one round
+    done = 0.9 + 0.1 * done;
     while (options.completeMultiplets && report.numberOfConverged == found &&
            EndsInside(pairs.values, zeros, block.wanted))
     {
