@@ -218,5 +218,19 @@ TEST_F(Spectra, TheCostOfManyModesIsAnnounced)
   EXPECT_NE(cost.find("5000 modes"), std::string::npos);
 }
 
+/// Two spheres that share one point. It has one hat, but no function of the grid joins the sheets.
+TEST_F(Spectra, SheetsThatTouchInAPointAreOneSurfaceOnHatsAlone)
+{
+  const TriangleMesh sphere = GeodesicSphere(8);
+  const auto two = std::make_shared<const TriangleMesh>(
+    Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.0, 1.0, { 2, 0, 0 })));
+  for (const FunctionKind kind : { FunctionKind::Grid, FunctionKind::Hats })
+  {
+    asked.choice.kind = kind;
+    const SpectrumSolver::Result result = SpectrumSolver::Solve(two, {}, options, asked);
+    EXPECT_EQ(result.spectrum.numberOfConstants, kind == FunctionKind::Hats ? 1 : 2);
+  }
+}
+
 } // namespace
 } // namespace gridfem
