@@ -125,6 +125,23 @@ std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
          " the modes that exist. A larger Number Of Modes adds more.";
 }
 
+/// Surrogates consist of modes alone.
+/// @param remaining  SignatureSolver::Result::remaining
+/// @return  the warning about values that the modes hardly describe; empty: none
+std::string WarningOfSurrogates(const MultiVector& remaining)
+{
+  constexpr double Enough = 0.9; // of the variance
+  const double described = 1.0 - std::pow(remaining.bottomRows(1).maxCoeff(), 2);
+  if (described >= Enough)
+  {
+    return {};
+  }
+  return "The modes describe only " + std::to_string(std::lround(100.0 * described)) +
+         " % of the variance of the values. The surrogates lack the rest, and are smoother than "
+         "the "
+         "values. Choose a larger Number Of Modes.";
+}
+
 } // namespace
 
 const SignatureSolver::Result& SignatureSolver::Update(
@@ -154,6 +171,14 @@ const SignatureSolver::Result& SignatureSolver::Update(
     result_.warnings.push_back(warning);
   }
   this->UpdateSums(surface, input, options, OfOwnPoints(surface, job.progress.Part(0.97, 1.0)));
+  if (options.filterType == ModeFilter::Surrogates)
+  {
+    const std::string ofSurrogates = WarningOfSurrogates(result_.remaining);
+    if (!ofSurrogates.empty())
+    {
+      result_.warnings.push_back(ofSurrogates);
+    }
+  }
   return result_;
 }
 

@@ -160,6 +160,14 @@ TEST_F(Signatures, SurrogatesHaveTheEnergyOfTheValues)
     EXPECT_NEAR(shares.middleRows(4, 5).squaredNorm(), energies[1], tolerance[k % 2]);
     EXPECT_NEAR(shares.bottomRows(shares.rows() - 9).norm(), 0.0, tolerance[k % 2]);
   }
+  EXPECT_TRUE(solver.Update(surface, input, options, {}).warnings.empty());
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    values(point, 0) = std::sin(20.0 * mesh->points[point].x());
+  }
+  SignatureSolver::Input ofWild = input;
+  ofWild.values = GivenField::Of("wild", Field{ FieldAssociation::Points, values }, 1);
+  EXPECT_EQ(solver.Update(surface, ofWild, options, {}).warnings.size(), 1u);
   const auto runs = stages.Runs(SolveStage);
   options.seed = 2;
   EXPECT_NE(solver.Update(surface, input, options, {}).surrogates, surrogates);
