@@ -72,7 +72,7 @@ def _solve(name, points, cells, given, properties, sources=(), on=None, observed
     properties = _inputs.chosen(properties)
     arrays = {}
     for array, values in given.items():
-        if values is None and array not in ("colors", "labels"):
+        if values is None and array not in ("colors", "labels") and name != "SpectralSignatures":
             continue
         values, place = _inputs.placed(name, array, values, points, cells, on)
         if place == "either":
@@ -169,9 +169,10 @@ def expand(points, cells, values, number=100, **properties):
 def surrogates(points, cells, values, count=10, number=100, **properties):
     """Makes random maps that are as smooth as the given values at the points.
 
-    Returns an array (count, N), or (count, N, C) for values with C columns. In each group of `number` modes
-    the maps have the energy of the values, and the same products between the columns. What no mode
-    describes is missing: `expand` tells how much. Another Seed gives other maps.
+    Returns an array (count, N), or (count, N, C) for values with C columns. The first `number` modes are
+    taken in groups of 3, 5, 7 and so on. In each group the maps have the energy of the values, and the same
+    products between the columns. What no mode describes is missing: `expand` tells how much. Another Seed
+    gives other maps.
     """
     results = _solve("SpectralSignatures", points, cells, {"values": values},
                      {"NumberOfModes": number, "FilterType": "Surrogates", "NumberOfSurrogates": count,

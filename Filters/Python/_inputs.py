@@ -76,7 +76,7 @@ def checked(points, cells):
 _AT_POINTS = {"held", "flux"}
 _OF_ONE_COLUMN = {"gradient_scale", "held", "labels", "scales", "weights"}
 # In these filters the values are at points.
-_WITH_VALUES_AT_POINTS = ("GaussianField", "HarmonicInterpolation", "SurfaceDetail")
+_WITH_VALUES_AT_POINTS = ("GaussianField", "HarmonicInterpolation", "SpectralSignatures", "SurfaceDetail")
 
 
 def placed(filter_name, array, values, points, cells, on=None):

@@ -79,7 +79,7 @@ class _Results:
         self.tables = [output for output in outputs if output.IsA("vtkTable")]
 
     def _columns(self, stem):
-        """Returns all point arrays whose names begin with the stem, side by side."""
+        """Returns all point arrays whose names begin with the stem, side by side, or None without any."""
         points = self.output.GetPointData()
         names = [points.GetArrayName(k) for k in range(points.GetNumberOfArrays())]
         columns = [self[name] for name in names if name.startswith(stem)]
@@ -99,7 +99,10 @@ class _Results:
             return samples if samples is not None else numpy.column_stack(
                 [self["Prediction"], self["PredictionStandardDeviation"]])
         if name == "Surrogates":
-            return self._columns("Surrogate")
+            surrogates = self._columns("Surrogate")
+            if surrogates is None:
+                raise KeyError(name)
+            return surrogates
         if name == "FlatPoints":
             flat = vtk_to_numpy(self.outputs[-1].GetPoints().GetData())[:, :2]
             return flat - flat.min(axis=0)

@@ -79,6 +79,8 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=(), reac
     for array in {"Solution", "Diffused", "Interpolated", "Filtered"} & results.keys():
         if "values" in arrays:
             results[array] = result_like(results[array], *arrays["values"])
+    if "Surrogates" in results and arrays["values"][0].dtype == numpy.float32:
+        results["Surrogates"] = results["Surrogates"].astype(numpy.float32)
     if "StitchedColors" in results:
         results["StitchedColors"] = colors_like(results["StitchedColors"], arrays["colors"][0])
     return results, messages

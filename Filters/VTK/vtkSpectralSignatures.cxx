@@ -219,7 +219,7 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
   }
   if (hasPoints && this->FilterType == Surrogates)
   {
-    gridfem::WriteSurrogates(*data.Result, data.Value.array->GetDataType(), output);
+    gridfem::WriteSurrogates(*data.Result, data.Value.array, output);
   }
   else if (hasPoints && this->FilterType != NoFilter)
   {

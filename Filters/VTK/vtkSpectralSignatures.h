@@ -61,8 +61,8 @@
  *   it is relative to the values themselves.
  *
  * SetInputArrayToProcess(0, ...) chooses the `ValueArray` to filter: a point array with any number
- * of components. Without it the filter takes the coordinates. The filter uses all shared
- * properties. DiffusionTime is in the squared unit of length of ParameterUnits.
+ * of components. Without it the filter takes the coordinates, and makes no surrogates. It uses all
+ * shared properties. DiffusionTime is in the squared unit of length of ParameterUnits.
  *
  * All MPI ranks compute together, also with the modes of the input. Rank 0 computes alone if there
  * are sources of distances or if coordinates are filtered.

@@ -88,6 +88,15 @@ class Engines(unittest.TestCase):
             self.compare(lambda g, p, c, **o: g.expand(p, c, p[:, columns], 12, **o))
             self.compare(lambda g, p, c, **o: (g.surrogates(p, c, p[:, columns], 3, 12, Seed=4, **o),))
         self.compare(lambda g, p, c, **o: (g.surrogates(p, c, p[:, 0], 1, 12, **o),))
+        self.compare(lambda g, p, c, **o: (
+            g.surrogates(p, c, p[:, 0].astype(numpy.float32), 2, 12, **o).astype(float),))
+        points, cells = self.meshes["ellipsoid"]
+        for package in (gridfem, self.core):
+            for function in (package.expand, package.surrogates):
+                with self.assertRaisesRegex(package.Error, "values must have a number"):
+                    function(points, cells, None)
+            single = package.surrogates(points, cells, points[:, 0].astype(numpy.float32), 1, 8, Depth=4)
+            self.assertEqual(single.dtype, numpy.float32)
 
     def test_the_depth_for_an_accuracy(self):
         self.compare(lambda g, p, c, **o: g.poisson(

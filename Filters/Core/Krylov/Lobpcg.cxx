@@ -194,6 +194,10 @@ double BlockIteration<Real>::Fraction()
   {
     worst = std::max(worst, locking_.Measure(j));
   }
+  if (!std::isfinite(worst))
+  {
+    return 0.0;
+  }
   first_ = std::max(first_, worst);
   return worst > options_.tolerance
            ? std::log(first_ / worst) / std::log(first_ / options_.tolerance)

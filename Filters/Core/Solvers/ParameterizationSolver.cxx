@@ -92,8 +92,8 @@ bool NoteVertices(
 }
 
 /// Gives points without a vertex the vertex at their place. Triangles that are left out have such
-/// points.
-void NoteVerticesAtPlaces(const TriangleMesh& mesh, int threads, Flat& flat)
+/// points. Returns whether such a place has several vertices.
+bool NoteVerticesAtPlaces(const TriangleMesh& mesh, int threads, Flat& flat)
 {
   const std::vector<char> isUsed = UsedPoints(mesh, threads);
   bool lacksVertex = false;
@@ -103,24 +103,30 @@ void NoteVerticesAtPlaces(const TriangleMesh& mesh, int threads, Flat& flat)
   }
   if (!lacksVertex)
   {
-    return;
+    return false;
   }
   const Array<Index> place = WeldCoincidentPoints(mesh.points, isUsed, threads);
   std::vector<Id> vertexAt(mesh.points.size(), -1);
+  std::vector<char> hasSeveral(mesh.points.size(), 0);
   for (std::size_t point = 0; point < isUsed.size(); ++point)
   {
     if (flat.vertexOf[point] >= 0)
     {
-      vertexAt[place[point]] = flat.vertexOf[point];
+      Id& known = vertexAt[place[point]];
+      hasSeveral[place[point]] |= known >= 0 && known != flat.vertexOf[point] ? 1 : 0;
+      known = flat.vertexOf[point];
     }
   }
+  bool isUncertain = false;
   for (std::size_t point = 0; point < isUsed.size(); ++point)
   {
     if (isUsed[point] && flat.vertexOf[point] < 0)
     {
       flat.vertexOf[point] = vertexAt[place[point]];
+      isUncertain = isUncertain || hasSeveral[place[point]];
     }
   }
+  return isUncertain;
 }
 
 /// Appends the triangles of a chart, and measures it.
@@ -275,7 +281,7 @@ void ParameterizationSolver::Flatten(const Surface& surface, MapType type, const
   }
   if (surface.UsedOptions().space.weldCoincidentPoints)
   {
-    NoteVerticesAtPlaces(mesh, job.threads, flat);
+    result_.splitsPoints = NoteVerticesAtPlaces(mesh, job.threads, flat) || result_.splitsPoints;
   }
   job.Check(0.85);
   ArrangeCharts(planes);

@@ -15,7 +15,7 @@ namespace
 
 constexpr double LengthRounding = 1e-12;
 
-/// Returns the points of one kind, without repetitions one after the other.
+/// Returns the points of one kind, in their order.
 std::vector<Id> CollectPoints(
   const TriangleMesh& mesh, const std::string& kind, const PathSolver::GivenPoints& given)
 {

@@ -26,6 +26,9 @@ constexpr const char* ExpansionStage = "Expansion"; // of the values in the mode
 constexpr const char* FilterStage = "Filter";
 ///@}
 
+/// Surrogates that are added up together.
+constexpr Id SurrogatesAtOnce = 16;
+
 /// Throws InvalidInput if all modes are constants and more modes exist. The message says how many
 /// modes it takes.
 void RequireNonConstant(const Spectrum& spectrum)
@@ -89,6 +92,15 @@ void RequireOnPoints(const GivenField& values)
     throw InvalidInput("Value Array '" + values.name +
                        "' must be a point array. Convert it with Cell Data to Point Data.");
   }
+}
+
+/// Whether a constant is a sum of the modes. It is not where modes are 0 on the boundary.
+bool DescribeConstants(const Surface& surface, const TriangleMesh& mesh, const PointModes& modes)
+{
+  constexpr double Rounding = 1e-6;
+  const ModeExpansion ofOne = ExpandInModes(mesh, modes, MultiVector::Ones(modes.values.rows(), 1),
+    surface.Threads(), surface.SumsOverProcesses());
+  return ofOne.remaining.bottomRows(1)(0, 0) <= Rounding * ofOne.norms[0];
 }
 
 /// Divides each column of errors by its number. An error of 0 stays 0.
@@ -280,7 +292,8 @@ void SignatureSolver::UpdateSums(
   key.Add(surface.GetStages().Version(ExpansionStage));
   key.Add(options.filterType).Add(options.firstMode).Add(options.lastMode);
   key.Add(options.numberOfSurrogates).Add(options.seed);
-  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, options); });
+  surface.GetStages().Run(
+    FilterStage, key, [&] { this->Filter(surface, options, progress.Part(0.8, 1.0)); });
 }
 
 /// Expands the values in the modes. Large constants would round the rest away, and are left out if
@@ -288,10 +301,12 @@ void SignatureSolver::UpdateSums(
 void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input)
 {
   const PointModes& modes = *result_.modes;
-  const Index constantModes = CountZeroModes(modes); // 0 with zero boundary values
   values_ = input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
-  constants_ = constantModes > 0 ? LargeConstants(surface, values_, UsedPoints(mesh))
-                                 : Eigen::RowVectorXd::Zero(values_.cols());
+  constants_ = LargeConstants(surface, values_, UsedPoints(mesh));
+  if (!constants_.isZero(0.0) && !DescribeConstants(surface, mesh, modes))
+  {
+    constants_.setZero();
+  }
   values_.rowwise() -= constants_;
   // The last column is the constant 1.
   MultiVector columns(values_.rows(), values_.cols() + 1);
@@ -301,6 +316,7 @@ void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, c
   shares_ = expansion.shares.leftCols(values_.cols());
   result_.coefficients = shares_ + expansion.shares.rightCols(1) * constants_;
   const MultiVector remaining = expansion.remaining.leftCols(values_.cols());
+  const Index constantModes = CountZeroModes(modes); // 0 with zero boundary values
   const Eigen::RowVectorXd whole = constantModes > 0
                                      ? Eigen::RowVectorXd(remaining.row(constantModes - 1))
                                      : Eigen::RowVectorXd(expansion.norms.head(values_.cols()));
@@ -308,7 +324,8 @@ void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, c
 }
 
 /// Adds up the modes that pass, or random shares of all modes.
-void SignatureSolver::Filter(const Surface& surface, const Options& options)
+void SignatureSolver::Filter(
+  const Surface& surface, const Options& options, const Progress& progress)
 {
   result_.filtered.resize(0, 0);
   result_.surrogates.resize(0, 0);
@@ -318,7 +335,7 @@ void SignatureSolver::Filter(const Surface& surface, const Options& options)
   }
   if (options.filterType == ModeFilter::Surrogates)
   {
-    result_.surrogates = this->Surrogates(surface, options);
+    result_.surrogates = this->Surrogates(surface, options, progress);
     return;
   }
   const PointModes& modes = *result_.modes;
@@ -337,7 +354,8 @@ void SignatureSolver::Filter(const Surface& surface, const Options& options)
   ClearRows(isReached_, result_.filtered);
 }
 
-MultiVector SignatureSolver::Surrogates(const Surface& surface, const Options& options) const
+MultiVector SignatureSolver::Surrogates(
+  const Surface& surface, const Options& options, const Progress& progress) const
 {
   const PointModes& modes = *result_.modes;
   const Id columns = shares_.cols();
@@ -347,14 +365,20 @@ MultiVector SignatureSolver::Surrogates(const Surface& surface, const Options& o
       " points",
     "Choose fewer surrogates." }); // the caller copies them
   const Index constants = CountZeroModes(modes);
-  MultiVector shares(shares_.rows(), columns * count);
-  for (Id k = 0; k < count; ++k)
+  MultiVector surrogates(values_.rows(), columns * count);
+  for (Id first = 0; first < count; first += SurrogatesAtOnce)
   {
-    shares.middleCols(k * columns, columns) =
-      RotateWithinGroups(shares_, constants, static_cast<std::uint64_t>(options.seed), k);
+    progress.Check(double(first) / double(count));
+    const Id some = std::min(SurrogatesAtOnce, count - first);
+    MultiVector shares(shares_.rows(), columns * some);
+    for (Id k = 0; k < some; ++k)
+    {
+      shares.middleCols(k * columns, columns) =
+        RotateWithinGroups(shares_, constants, static_cast<std::uint64_t>(options.seed), first + k);
+    }
+    surrogates.middleCols(first * columns, some * columns) =
+      SumOfModes(modes, shares, 0, static_cast<Index>(shares.rows()), surface.Threads());
   }
-  MultiVector surrogates =
-    SumOfModes(modes, shares, 0, static_cast<Index>(shares.rows()), surface.Threads());
   const Eigen::RowVectorXd constantsOfAll = constants_.replicate(1, count);
   surrogates.rowwise() += constantsOfAll;
   ClearRows(isReached_, surrogates);

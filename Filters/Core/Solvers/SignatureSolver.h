@@ -115,8 +115,9 @@ private:
   void UpdateSums(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input);
-  void Filter(const Surface& surface, const Options& options);
-  MultiVector Surrogates(const Surface& surface, const Options& options) const;
+  void Filter(const Surface& surface, const Options& options, const Progress& progress);
+  MultiVector Surrogates(
+    const Surface& surface, const Options& options, const Progress& progress) const;
 
   SpectrumSolver spectrum_;
   std::vector<char> isReached_; // per point: the modes have a value

@@ -52,13 +52,19 @@ void WriteModeDistances(const SignatureSolver::Result& result, int precision, vt
   points->SetActiveScalars("BiharmonicDistance");
 }
 
-void WriteSurrogates(const SignatureSolver::Result& result, int dataType, vtkPolyData* output)
+void WriteSurrogates(
+  const SignatureSolver::Result& result, vtkDataArray* given, vtkPolyData* output)
 {
   const Id columns = result.coefficients.cols();
   for (Id k = 0; k * columns < result.surrogates.cols(); ++k)
   {
-    output->GetPointData()->AddArray(MakePointArray(NumberedName("Surrogate", k).c_str(),
-      result.surrogates.middleCols(k * columns, columns), dataType));
+    const vtkSmartPointer<vtkDataArray> array = MakePointArray(NumberedName("Surrogate", k).c_str(),
+      result.surrogates.middleCols(k * columns, columns), given->GetDataType());
+    for (int c = 0; given->HasAComponentName() && c < columns; ++c)
+    {
+      array->SetComponentName(c, given->GetComponentName(c));
+    }
+    output->GetPointData()->AddArray(array);
   }
   output->GetPointData()->SetActiveScalars("Surrogate000");
 }

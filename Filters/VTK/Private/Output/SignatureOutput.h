@@ -4,6 +4,7 @@
 
 #include "Solvers/SignatureSolver.h"
 
+class vtkDataArray;
 class vtkPolyData;
 class vtkTable;
 
@@ -17,9 +18,10 @@ void WriteSignatures(const SignatureSolver::Result& result, int precision, vtkPo
 /// Adds the point arrays DiffusionDistance and BiharmonicDistance.
 void WriteModeDistances(const SignatureSolver::Result& result, int precision, vtkPolyData* output);
 
-/// Adds the point arrays Surrogate000, Surrogate001, ...: float if `dataType` is VTK_FLOAT, else
-/// double.
-void WriteSurrogates(const SignatureSolver::Result& result, int dataType, vtkPolyData* output);
+/// Adds the point arrays Surrogate000, Surrogate001, ... with the names of the components of the
+/// given array: float if this array is float, else double.
+void WriteSurrogates(
+  const SignatureSolver::Result& result, vtkDataArray* given, vtkPolyData* output);
 
 /// Adds the columns Mode, Eigenvalue and ShapeDNA, and with a filter Coefficient and
 /// RemainingError.
