@@ -148,7 +148,7 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
   filter->SetDepth(5);
   const Messages messages(filter);
   int aborts = 0;
-  for (double wait = 0.02;; wait *= 4.0)
+  for (double wait = 0.005;; wait *= 4.0)
   {
     filter->Modified();
     double late = 0.0;
