@@ -26,6 +26,9 @@ _INDICES = {
     "SurfaceDynamics": {"start": 0, "velocity": 1}}
 _OTHER_INDICES = {"values": 0, "colors": 0, "labels": 1}
 
+# Results in several point arrays, whose names begin with these words.
+_STEMS = {"Modes": "Mode", "Samples": "Sample", "Surrogates": "Surrogate"}
+
 # Properties of pipelines, which the functions do not have: of all filters, and of single ones.
 _OF_PIPELINES = {"AllModes", "BlocksAsOne", "Mode", "TimeFrom", "UseSourcePosition"}
 _OF_PIPELINES_BY_FILTER = {
@@ -88,21 +91,16 @@ class _Results:
     def __getitem__(self, name):
         if name == "Points":
             return vtk_to_numpy(self.output.GetPoints().GetData()).copy()
-        if name == "Modes":
-            count = self.output.GetFieldData().GetArray("Eigenvalues").GetNumberOfTuples()
-            return numpy.column_stack([self[f"Mode{mode:03}"] for mode in range(count)])
         if name == "State":
             points = self.output.GetPointData()
             return numpy.column_stack([self["U"], self["V"]]) if points.HasArray("V") else self["U"]
-        if name == "Samples":
-            samples = self._columns("Sample")
-            return samples if samples is not None else numpy.column_stack(
-                [self["Prediction"], self["PredictionStandardDeviation"]])
-        if name == "Surrogates":
-            surrogates = self._columns("Surrogate")
-            if surrogates is None:
+        if name in _STEMS:
+            columns = self._columns(_STEMS[name])
+            if columns is None and name == "Samples":
+                columns = numpy.column_stack([self["Prediction"], self["PredictionStandardDeviation"]])
+            if columns is None:
                 raise KeyError(name)
-            return surrogates
+            return columns
         if name == "FlatPoints":
             flat = vtk_to_numpy(self.outputs[-1].GetPoints().GetData())[:, :2]
             return flat - flat.min(axis=0)

@@ -1,6 +1,7 @@
 // Fields on surfaces: steps of reactions that spread, and samples of random fields, on two threads.
 // Set-up is told beside the times and not counted in them, because an animation or a series of
 // samples pays for it once.
+#include "Dense.h"
 #include "Equations/MaternField.h"
 #include "Equations/ReactionDiffusion.h"
 #include "Measure.h"
@@ -8,11 +9,12 @@
 #include "Spaces/SpaceChoice.h"
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -34,19 +36,12 @@ std::shared_ptr<const FiniteElementSpace> SpaceOn(
   return BuildSpace(mesh, options, choice, {});
 }
 
-/// Numbers in [0, 1), the same everywhere.
-class Noise
+/// The root of the area, in units of length of the space.
+double SideOf(const FiniteElementSpace& space)
 {
-public:
-  double Next()
-  {
-    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<double>(state_ >> 11) / 9007199254740992.0;
-  }
-
-private:
-  std::uint64_t state_ = 1;
-};
+  const std::vector<double>& integrals = space.Integrals();
+  return std::sqrt(std::accumulate(integrals.begin(), integrals.end(), 0.0));
+}
 
 /// Steps of Gray-Scott from noise. A pattern is ten functions long.
 /// @return  seconds of a step
@@ -59,7 +54,7 @@ double MeasureSteps(const TriangleMesh& mesh, const std::string& name, FunctionK
   const auto space = SpaceOn(mesh, kind, depth);
   const Id functions = space->NumberOfFunctions(0);
   const ReactionSystem system = GrayScott(0.037, 0.06);
-  const double spacing = std::sqrt(10.0 * MassSmoothing(*space));
+  const double spacing = SideOf(*space) / std::sqrt(double(functions));
   const double scale = 10.0 * spacing / system.patternLength;
   ReactionTerms terms{ system.diffusion, system.react, nullptr };
   for (double& diffusion : terms.diffusion)
@@ -71,10 +66,10 @@ double MeasureSteps(const TriangleMesh& mesh, const std::string& name, FunctionK
   equation.multigrid.threads = Threads;
   ReactionDiffusion evolution(space, terms, equation, system.step, Threads);
   MultiVector start(functions, 2);
-  Noise noise;
+  const MultiVector noise = gridfem::testing::RandomValues(functions, 1);
   for (Id k = 0; k < functions; ++k)
   {
-    system.startOfDisturbance(noise.Next(), &start(k, 0));
+    system.startOfDisturbance(0.5 * (1.0 + noise(k, 0)), &start(k, 0));
   }
   evolution.Start(std::move(start));
   int iterations = 0;
@@ -110,8 +105,7 @@ double MeasureSamples(const TriangleMesh& mesh, int depth, int smoothness, const
   const auto space = SpaceOn(mesh, FunctionKind::Grid, depth);
   MaternOptions options;
   options.smoothness = smoothness;
-  const double side = std::sqrt(10.0 * MassSmoothing(*space) * double(space->NumberOfFunctions(0)));
-  options.kappa = std::sqrt(8.0 * smoothness) / (Range * side);
+  options.kappa = std::sqrt(8.0 * smoothness) / (Range * SideOf(*space));
   options.solve.tolerance = 1e-6;
   options.multigrid.threads = Threads;
   const MaternField field(space, options, Threads);

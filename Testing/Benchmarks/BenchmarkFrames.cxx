@@ -6,6 +6,7 @@
 // Times are the least of some runs, on two threads.
 #include "Cholmod.h"
 #include "CotangentSystem.h"
+#include "Dense.h"
 #include "Measure.h"
 #include "Meshes.h"
 
@@ -28,18 +29,6 @@ using namespace gridfem::benchmarks;
 constexpr int Threads = 2;
 constexpr Id Frames = 1200;
 constexpr double WidthInEdges = 6.0;
-
-/// Noise of the same bits everywhere.
-MultiVector Noise(Id points, Id frames)
-{
-  std::uint64_t state = 1;
-  return MultiVector::NullaryExpr(points, frames,
-    [&](Id, Id)
-    {
-      state = state * 6364136223846793005u + 1442695040888963407u;
-      return static_cast<double>(state >> 11) / 9007199254740992.0 - 0.5;
-    });
-}
 
 class Ours
 {
@@ -146,7 +135,7 @@ int main()
   const double width = WidthInEdges * EdgeOfSphere(points);
   Ours ours(mesh, width);
   const Peer peer(*mesh, width);
-  const MultiVector frames = Noise(points, Frames);
+  const MultiVector frames = gridfem::testing::RandomValues(points, Frames);
   ours.Smooth(frames.leftCols(1)); // makes functions and hierarchy
 
   std::printf("Frames of noise on a sphere of %lld points\n\n", static_cast<long long>(points));

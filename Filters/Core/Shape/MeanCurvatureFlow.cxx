@@ -153,14 +153,15 @@ std::vector<Vec3> MeanCurvatureFlow::WorldPoints(
   const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const
 {
   const MultiVector position = space.ValuesAtPoints(embedding, job);
-  const std::vector<char> isReached = options_.rebuild ? space.PointsWithFunctions() : moves_;
-  std::vector<Vec3> points = options_.rebuild ? this->Points(job) : mesh_->points;
+  const bool isNew = options_.rebuild != nullptr;
+  const std::vector<char> isReached = isNew ? space.PointsWithFunctions() : std::vector<char>();
+  std::vector<Vec3> points = isNew ? this->Points(job) : mesh_->points;
   ParallelRanges(static_cast<Id>(points.size()), job.threads,
     [&](Id begin, Id end)
     {
       for (Id k = begin; k < end; ++k)
       {
-        if (moves_[k] && isReached[k])
+        if (moves_[k] && (!isNew || isReached[k]))
         {
           points[k] = space.Origin() + space.UnitLength() * RowOf(position, k);
         }

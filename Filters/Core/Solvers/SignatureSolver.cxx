@@ -5,6 +5,7 @@
 #include "Grid/Grid.h"
 #include "Grid/TriangleArea.h"
 #include "Solvers/SolveOnMesh.h"
+#include "Solvers/SolveWarnings.h"
 #include "Solvers/SurfaceFields.h"
 #include "Spectrum/SpectralSurrogates.h"
 
@@ -137,21 +138,24 @@ std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
          " the modes that exist. A larger Number Of Modes adds more.";
 }
 
-/// Surrogates consist of modes alone.
 /// @param remaining  SignatureSolver::Result::remaining
-/// @return  the warning about values that the modes hardly describe; empty: none
-std::string WarningOfSurrogates(const MultiVector& remaining)
+/// @return  the warning about surrogates of values that the modes hardly describe; empty: none
+std::string WarningOfSurrogates(
+  const SignatureSolver::Options& options, const MultiVector& remaining)
 {
   constexpr double Enough = 0.9; // of the variance
+  if (options.filterType != ModeFilter::Surrogates)
+  {
+    return {};
+  }
   const double described = 1.0 - std::pow(remaining.bottomRows(1).maxCoeff(), 2);
   if (described >= Enough)
   {
     return {};
   }
   return "The modes describe only " + std::to_string(std::lround(100.0 * described)) +
-         " % of the variance of the values. The surrogates lack the rest, and are smoother than "
-         "the "
-         "values. Choose a larger Number Of Modes.";
+         " % of the variance of the values. The surrogates lack the rest, and are smoother than " +
+         "the values. Choose a larger Number Of Modes.";
 }
 
 } // namespace
@@ -176,21 +180,11 @@ const SignatureSolver::Result& SignatureSolver::Update(
   job.Check(0.0);
   this->UpdateModes(surface, input, options, job.progress.Part(0.0, 0.97));
   job.Check(0.97);
-  const std::string warning =
-    WarningOfBand(options, static_cast<int>(result_.modes->eigenvalues.size()));
-  if (!warning.empty())
-  {
-    result_.warnings.push_back(warning);
-  }
+  const auto modes = static_cast<int>(result_.modes->eigenvalues.size());
+  result_.warnings.push_back(WarningOfBand(options, modes));
   this->UpdateSums(surface, input, options, OfOwnPoints(surface, job.progress.Part(0.97, 1.0)));
-  if (options.filterType == ModeFilter::Surrogates)
-  {
-    const std::string ofSurrogates = WarningOfSurrogates(result_.remaining);
-    if (!ofSurrogates.empty())
-    {
-      result_.warnings.push_back(ofSurrogates);
-    }
-  }
+  result_.warnings.push_back(WarningOfSurrogates(options, result_.remaining));
+  result_.warnings = NotEmpty(std::move(result_.warnings));
   return result_;
 }
 
@@ -315,12 +309,10 @@ void SignatureSolver::Expand(const Surface& surface, const TriangleMesh& mesh, c
     ExpandInModes(mesh, modes, columns, surface.Threads(), surface.SumsOverProcesses());
   shares_ = expansion.shares.leftCols(values_.cols());
   result_.coefficients = shares_ + expansion.shares.rightCols(1) * constants_;
-  const MultiVector remaining = expansion.remaining.leftCols(values_.cols());
-  const Index constantModes = CountZeroModes(modes); // 0 with zero boundary values
-  const Eigen::RowVectorXd whole = constantModes > 0
-                                     ? Eigen::RowVectorXd(remaining.row(constantModes - 1))
-                                     : Eigen::RowVectorXd(expansion.norms.head(values_.cols()));
-  result_.remaining = RelativeTo(whole, remaining);
+  // No mode is constant with zero boundary values.
+  const Eigen::RowVectorXd whole = expansion.RemainingAfter(CountZeroModes(modes));
+  result_.remaining =
+    RelativeTo(whole.head(values_.cols()), expansion.remaining.leftCols(values_.cols()));
 }
 
 /// Adds up the modes that pass, or random shares of all modes.

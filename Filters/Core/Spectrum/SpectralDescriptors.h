@@ -76,6 +76,12 @@ struct ModeExpansion
   MultiVector shares;       // of every mode in the best approximation by all modes
   MultiVector remaining;    // root of the integral of the squared error by the modes up to the row
   Eigen::RowVectorXd norms; // the same root before the first mode
+
+  /// The same root by the first `count` modes.
+  Eigen::RowVectorXd RemainingAfter(Index count) const
+  {
+    return count > 0 ? Eigen::RowVectorXd(remaining.row(count - 1)) : norms;
+  }
 };
 
 /// Expands functions in modes (rows = points). The functions and the modes are linear on every

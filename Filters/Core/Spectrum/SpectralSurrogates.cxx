@@ -11,8 +11,8 @@ namespace gridfem
 namespace
 {
 
-/// Returns an orthogonal matrix, uniform among all: Q of a matrix of normal numbers, with signs
-/// that make the diagonal of R positive. [Mezzadri: How to generate random matrices from the
+/// Returns an orthogonal matrix, uniform among all. It is Q of a matrix of normal numbers. Its
+/// signs make the diagonal of R positive. [Mezzadri: How to generate random matrices from the
 /// classical compact groups, 2007]
 Eigen::MatrixXd RandomOrthogonal(Id size, const NormalNumbers& numbers)
 {

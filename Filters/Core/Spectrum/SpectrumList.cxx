@@ -67,7 +67,7 @@ ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, 
   {
     block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
     const int before = report.block.iterations;
-    const double next = 0.9 + 0.1 * done; // most lists take one round
+    const double next = AfterRound(done);
     report.block = ImproveManyEigenPairs(problem, block, pairs, progress.Part(done, next));
     report.block.iterations += before;
     done = next;

@@ -8,6 +8,12 @@
 namespace gridfem
 {
 
+/// The progress after the next round of work on a list. Most lists take one round.
+inline double AfterRound(double done)
+{
+  return 0.9 + 0.1 * done;
+}
+
 struct ListEnd
 {
   Index zeros = 0;                 // number of zero values in front of the pairs

@@ -8,6 +8,7 @@
 #include "Spectrum/MassUnit.h"
 #include "Spectrum/ModeMatch.h"
 #include "Spectrum/SpectrumAccuracy.h"
+#include "Spectrum/SpectrumList.h"
 
 #include <algorithm>
 #include <memory>
@@ -114,9 +115,9 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
     block.maximumIterations = pairs.vectors.Columns() < found
                                 ? std::max(RandomStartIterations, options.maximumIterations)
                                 : options.maximumIterations;
-    report = ImproveManyEigenPairs<double>(
-      problem, block, pairs, progress.Part(done, 0.9 + 0.1 * done)); // mostly one round
-    done = 0.9 + 0.1 * done;
+    const double next = AfterRound(done);
+    report = ImproveManyEigenPairs<double>(problem, block, pairs, progress.Part(done, next));
+    done = next;
     while (options.completeMultiplets && report.numberOfConverged == found &&
            EndsInside(pairs.values, zeros, block.wanted))
     {

@@ -60,10 +60,7 @@ void WriteSurrogates(
   {
     const vtkSmartPointer<vtkDataArray> array = MakePointArray(NumberedName("Surrogate", k).c_str(),
       result.surrogates.middleCols(k * columns, columns), given->GetDataType());
-    for (int c = 0; given->HasAComponentName() && c < columns; ++c)
-    {
-      array->SetComponentName(c, given->GetComponentName(c));
-    }
+    array->CopyComponentNames(given);
     output->GetPointData()->AddArray(array);
   }
   output->GetPointData()->SetActiveScalars("Surrogate000");
