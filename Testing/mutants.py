@@ -11,6 +11,18 @@ import sys
 
 # Name, file, line, replacement, and the test program that must fail.
 MUTANTS = (
+    ("directions that a device leaves out are lost", "Filters/Core/Multigrid/DeviceHierarchy.cxx",
+     "    AddSolutions(unresolved_[level], b, x);",
+     "    (void)AddSolutions<Real>;",
+     "TestDeviceHierarchy"),
+    ("a polynomial of another kind", "Filters/Device/Cycles.cxx",
+     "    const float first = step == 1 ? 0.0f : (2.0f * k - 3.0f) / (2.0f * k + 1.0f);",
+     "    const float first = step == 1 ? 0.0f : (2.0f * k - 1.0f) / (2.0f * k + 1.0f);",
+     "TestDeviceHierarchy"),
+    ("a device without units", "Filters/Device/Kernels.h",
+     "    unit[row] = PowerNearRoot(own);",
+     "    unit[row] = 1.0;",
+     "TestDeviceHierarchy"),
     ("nan in a distance", "Filters/Core/Distance/GeodesicDistance.cxx",
      "  field.atPoints = sources.shifted(distance, job.Part(0.8, 0.85));",
      "  field.atPoints = sources.shifted(distance, job.Part(0.8, 0.85)); field.atPoints[9] = NaN;",

@@ -29,7 +29,7 @@ CheckWithClang()
   local folder="$SOURCE/build-clang"
   Quietly "$BUILD/clang-configure.log" cmake -S "$SOURCE" -B "$folder" -G Ninja \
     -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug -DGRIDFEM_NATIVE=ON -DGRIDFEM_WERROR=ON \
-    -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF -DGRIDFEM_CCACHE=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10
+    -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_CUDA=OFF -DGRIDFEM_BUILD_TESTING=OFF -DGRIDFEM_CCACHE=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10
   Quietly "$BUILD/clang-headers.log" cmake --build "$folder" \
     --target Filters/Core/CMakeFiles/gridfem_core.dir/cmake_pch.hxx.pch
   # Each line is the command that compiles one file.

@@ -110,6 +110,7 @@ def placed(filter_name, array, values, points, cells, on=None):
 # The values of choices by name, in the order of their numbers.
 CHOICES = {
     "Amount": ("DiffusionTime", "FWHM", "Sigma"),
+    "Device": ("Automatic", "CPU", "GPU"),
     "FilterType": ("None", "LowPass", "HighPass", "BandPass", "Surrogates"),
     "FunctionSpace": ("Grid", "HatFunctions", "SmoothGrid"),
     "MapType": ("Conformal", "Isometric", "Circle"),

@@ -32,8 +32,8 @@ _STEMS = {"Modes": "Mode", "Samples": "Sample", "Surrogates": "Surrogate"}
 # Properties of pipelines, which the functions do not have: of all filters, and of single ones.
 _OF_PIPELINES = {"AllModes", "BlocksAsOne", "Mode", "TimeFrom", "UseSourcePosition"}
 _OF_PIPELINES_BY_FILTER = {
-    "GeodesicPaths": {"MaximumIterations", "Tolerance"}, "LaplaceSpectrum": {"TrackMetric"},
-    "Parameterization": {"MaximumIterations", "Tolerance"}, "ScreenedPoisson": {"TrackMetric"}}
+    "GeodesicPaths": {"Device", "MaximumIterations", "Tolerance"}, "LaplaceSpectrum": {"TrackMetric"},
+    "Parameterization": {"Device", "MaximumIterations", "Tolerance"}, "ScreenedPoisson": {"TrackMetric"}}
 
 
 def surface(points, cells):

@@ -201,6 +201,7 @@ void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
   gridfem::AddFieldInt(output, "CutsGroup", result.spectrum.cutsMultiplet ? 1 : 0);
   gridfem::AddFieldInt(output, "TrustedEstimate", result.isErrorTrusted ? 1 : 0);
+  gridfem::AddDevice(result.spectrum.where, output);
   this->State->Surface().WriteTracking(output);
 }
 

@@ -101,6 +101,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
 
   gridfem::FlowSolver::Options options;
   options.equation.solve = state.options.solve;
+  options.equation.multigrid.device = state.options.multigrid.device;
   options.timeStep = this->TimeStep;
   options.numberOfSteps = this->NumberOfSteps;
   options.conformalized = this->Conformalized;
@@ -120,6 +121,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddFieldNumber(output, "FlowTime", result.steps[shown].time);
   gridfem::AddFieldInt(output, "Converged", solver.HasConverged(shown) ? 1 : 0);
+  gridfem::AddDevice(result.steps[shown].where, output);
   gridfem::AddAccuracy(result.steps[shown].accuracy, output);
   WriteTable(result.steps, vtkTable::GetData(outputs, 1));
   gridfem::WriteText("Step " + std::to_string(shown) + ", sphericity " +

@@ -228,6 +228,7 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
   if (!data.Given.modes)
   {
     gridfem::AddFieldInt(output, "Converged", data.Result->isConverged ? 1 : 0);
+    gridfem::AddDevice(data.Result->where, output);
   }
 }
 

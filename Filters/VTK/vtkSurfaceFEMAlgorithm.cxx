@@ -215,6 +215,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.choice.quadratureDegree = this->QuadratureDegree;
   options.choice.normalStabilization = this->NormalStabilization;
   options.multigrid.threads = this->NumberOfThreads;
+  options.multigrid.device = static_cast<gridfem::DeviceChoice>(this->Device);
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
@@ -435,6 +436,7 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Device: " << this->Device << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
   os << indent << "BlocksAsOne: " << this->BlocksAsOne << "\n";
   os << indent << "ResultPrefix: " << this->ResultPrefix << "\n";

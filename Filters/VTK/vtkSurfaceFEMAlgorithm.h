@@ -227,6 +227,25 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  /// Where solvers compute their cycles.
+  enum Devices
+  {
+    AutomaticDevice = 0, // on an NVIDIA GPU if there is one and the problem gains by it
+    CPU = 1,
+    GPU = 2 // on an NVIDIA GPU if there is one
+  };
+
+  ///@{
+  /**
+   * Where solvers compute their cycles: AutomaticDevice (default), CPU or GPU. A GPU computes in
+   * single precision. The solution meets the same tolerance, but may differ within it. If the GPU
+   * cannot compute or fails, the CPU goes on. The field array Device tells where cycles ran, and
+   * why not on the other one. MPI ranks that share a surface use no GPU.
+   */
+  vtkSetInRangeMacro(Device, int, AutomaticDevice, GPU);
+  vtkGetMacro(Device, int);
+  ///@}
+
   ///@{
   /**
    * When on, the leaves of a composite input are one surface. Leaves are joined at points with the
@@ -385,6 +404,7 @@ protected:
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
+  int Device = AutomaticDevice;
   int ParameterUnits = UnitArea;
   bool BlocksAsOne = false;
   std::string ResultPrefix;

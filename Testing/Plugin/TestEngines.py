@@ -299,7 +299,8 @@ class Engines(unittest.TestCase):
                 self.assertAlmostEqual(areas(points, cells).sum(), expected, delta=1e-6)
 
     def test_choices_are_as_many_as_the_filters_have(self):
-        owners = {"Amount": "HeatDiffusion", "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
+        owners = {"Amount": "HeatDiffusion", "Device": "ScreenedPoisson",
+                  "FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
                   "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
                   "FunctionSpace": "ScreenedPoisson", "MapType": "Parameterization", "Model": "SurfaceDynamics",
                   "PathType": "GeodesicPaths", "ParameterUnits": "ScreenedPoisson"}

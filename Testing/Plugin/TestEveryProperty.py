@@ -117,7 +117,7 @@ ENDS = {"MaximumIterations", "Tolerance", "Accuracy", "WantedError"}  # they end
 WARM = {"ScreenedPoisson", "SurfaceDetail"}
 REPORTS = {"Iterations", "Residual", "ConvergenceFactor", "AlgebraicError", "DiscretizationError",
            "LargestDiscretizationError", "TrustedEstimate"}
-LEFT_OUT = {"NumberOfThreads"}  # changes no bit
+LEFT_OUT = {"NumberOfThreads", "Device"}  # change no bit without a GPU
 
 
 def contents(proxy):

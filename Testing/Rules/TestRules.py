@@ -93,6 +93,14 @@ class Layers(Rule):
                      for name in included(p) if name.startswith(("Parallel/", "petsc", "mpi"))]
         self.assertNothing(offences, "Parallel stands on Core, and Core on nothing.")
 
+    def test_device_knows_one_header_of_core(self):
+        offences = [f"{relative(p)} includes {name}" for p in sources("Filters/Device", (".h", ".cxx", ".cu"))
+                    for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', p.read_text(), re.MULTILINE)
+                    if name != "Multigrid/Device.h" and not (p.parent / name).exists()]
+        offences += [relative(p) for p in sources("Filters") if p.name != "Memory.h" or p.parent.name != "Device"
+                     if re.search(r"\bcuda[A-Z]|cuda_runtime", without_comments(p.read_text()))]
+        self.assertNothing(offences, "The library of devices stands on its interface, and Memory.h alone knows CUDA.")
+
     def test_core_includes_go_one_way(self):
         offences = []
         for path in sources("Filters/Core"):

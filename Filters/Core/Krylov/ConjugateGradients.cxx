@@ -66,6 +66,7 @@ void Append(const SolveReport& step, SolveReport& report)
   report.converged = step.converged;
   report.end = step.end;
   report.convergenceFactor = MeanFactor(report);
+  report.where = step.where;
 }
 
 void KeepWorse(SolveReport report, SolveReport& kept)

@@ -6,6 +6,7 @@
 #include "Krylov/LinearOperator.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace gridfem
@@ -93,6 +94,7 @@ struct SolveReport
   std::vector<IterationRecord> history; // iteration 0 is the start
   double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
   int doubleSince = -1;                 // iteration of the fallback to double precision; -1: none
+  std::string where;                    // the device of the cycles; see Multigrid::Where
 };
 
 /// The value of `convergenceFactor`.

@@ -36,6 +36,7 @@ LinearOperator OperatorOf(const Multigrid& multigrid)
     return products;
   };
   result.threads = threads;
+  result.where = [&multigrid] { return multigrid.Where(); };
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "Algebra/ColumnAlgebra.h"
 
 #include <functional>
+#include <string>
 
 namespace gridfem
 {
@@ -25,6 +26,8 @@ struct LinearOperator
   /// these sums alone.
   std::function<Columns(const MultiVector& x, const MultiVector& y)> products;
   int threads = 0; // threads that add up vectors
+  /// Where its cycles run; see Multigrid::Where.
+  std::function<std::string()> where = [] { return std::string(); };
 };
 
 /// z = B r for every column, B symmetric positive semi-definite.

@@ -295,6 +295,7 @@ SolveReport SolverIteration::Finish()
   report_.end = end_.empty() ? SolveEnd::Converged : *std::max_element(end_.begin(), end_.end());
   report_.converged = report_.end == SolveEnd::Converged;
   report_.convergenceFactor = MeanFactor(report_);
+  report_.where = A_.where();
   return std::move(report_);
 }
 

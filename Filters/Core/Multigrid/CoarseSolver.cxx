@@ -1,6 +1,7 @@
 #include "Multigrid/CoarseSolver.h"
 
 #include "Algebra/PivotedCholesky.h"
+#include "Algebra/RowBuilder.h"
 #include "Base/Grouping.h"
 #include "Base/UnionFind.h"
 #include "Multigrid/BlockSweep.h"
@@ -11,8 +12,6 @@ namespace gridfem
 {
 namespace
 {
-
-constexpr double SmallestPivot = 1e-12;
 
 /// Components per parallel task. Most components have a handful of unknowns.
 constexpr Id ComponentsPerRange = 8;
@@ -56,7 +55,7 @@ Eigen::MatrixXd ScaledBlock(
 
 } // namespace
 
-CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads) : rows_(A.rows)
+CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads, double smallestPivot) : rows_(A.rows)
 {
   if (A.rows != A.columns)
   {
@@ -71,14 +70,15 @@ CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads) : rows_(A.rows)
       for (Id c = begin; c < end; ++c)
       {
         const Index* const unknowns = members.item.data();
-        components_[c] = Factor(A, unknowns + members.begin[c], unknowns + members.begin[c + 1]);
+        components_[c] =
+          Factor(A, unknowns + members.begin[c], unknowns + members.begin[c + 1], smallestPivot);
       }
     },
     ComponentsPerRange);
 }
 
 CoarseSolver::Component CoarseSolver::Factor(
-  const SparseMatrix& A, const Index* begin, const Index* end)
+  const SparseMatrix& A, const Index* begin, const Index* end, double smallestPivot)
 {
   std::vector<Index> usable;
   std::vector<double> scales;
@@ -94,7 +94,7 @@ CoarseSolver::Component CoarseSolver::Factor(
   const Eigen::VectorXd scale =
     Eigen::Map<const Eigen::VectorXd>(scales.data(), static_cast<Id>(scales.size()));
   Eigen::MatrixXd S = ScaledBlock(A, usable, scale);
-  const std::vector<Index> pivots = PivotedCholesky(S, SmallestPivot);
+  const std::vector<Index> pivots = PivotedCholesky(S, smallestPivot);
 
   Component component;
   const Id rank = static_cast<Id>(pivots.size());
@@ -146,6 +146,33 @@ void CoarseSolver::Solve(const MultiVector& b, MultiVector& x, int threads) cons
       }
     },
     ComponentsPerRange);
+}
+
+SparseMatrix CoarseSolver::Inverse() const
+{
+  std::vector<RowBuilder::Entries> rows(rows_);
+  for (const Component& component : components_)
+  {
+    const Id rank = component.scale.size();
+    Eigen::MatrixXd B = component.scale.asDiagonal();
+    const auto lower = component.L.triangularView<Eigen::Lower>();
+    lower.solveInPlace(B);
+    lower.transpose().solveInPlace(B);
+    for (Id i = 0; i < rank; ++i)
+    {
+      for (Id j = 0; j < rank; ++j)
+      {
+        const double entry = i >= j ? component.scale[i] * B(i, j) : component.scale[j] * B(j, i);
+        rows[component.unknown[i]].emplace_back(component.unknown[j], entry);
+      }
+    }
+  }
+  RowBuilder builder;
+  for (RowBuilder::Entries& row : rows)
+  {
+    builder.Append(row);
+  }
+  return builder.Finish(static_cast<Index>(rows_));
 }
 
 std::size_t CoarseSolver::Memory() const

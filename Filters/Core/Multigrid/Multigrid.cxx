@@ -52,6 +52,18 @@ void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptio
   }
 }
 
+/// A copy of levels without smoothers. It shares patterns and prolongations.
+std::vector<MultigridLevel> CopyLevels(const std::vector<MultigridLevel>& levels)
+{
+  std::vector<MultigridLevel> copy;
+  for (const MultigridLevel& from : levels)
+  {
+    copy.push_back({ from.A, from.prolongation, from.restriction, from.order, from.groups,
+      from.smoothing, from.distributed, nullptr });
+  }
+  return copy;
+}
+
 template<class Real>
 std::unique_ptr<BasicSmoother<Real>> MakePatches(
   const SparseMatrix& A, const PatchOrder& order, const MultigridOptions& options)
@@ -92,11 +104,42 @@ BasicMultigrid<Real>::BasicMultigrid(
   }
 }
 
+/// Moves the cycles to a device if there is one, or takes new values of the matrices there.
+template<class Real>
+void BasicMultigrid<Real>::UseDevice(const std::vector<MultigridLevel>& levels)
+{
+  spare_.reset();
+  if (!device_)
+  {
+    device_ = DeviceHierarchy::Make(levels, options_, whyNotOnDevice_);
+  }
+  else if (!device_->Update(levels, whyNotOnDevice_))
+  {
+    device_.reset();
+  }
+  if (device_)
+  {
+    spare_ = std::make_unique<Spare>();
+  }
+}
+
 /// Converts the levels to levels in single precision.
 template<class Real>
 void BasicMultigrid<Real>::ConvertLevels(std::vector<MultigridLevel> levels)
 {
   const int threads = options_.threads;
+  isSingle_.assign(levels.size(), 0);
+  coarse_ = CoarseSolver(levels.back().A, threads);
+  this->UseDevice(levels);
+  if (device_)
+  {
+    for (const MultigridLevel& level : levels)
+    {
+      levels_.emplace_back().A = InSinglePrecision(level.A, threads);
+    }
+    spare_->levels = std::move(levels);
+    return;
+  }
   double patches = 0.0;
   double unresolved = 0.0;
   for (MultigridLevel& level : levels)
@@ -107,7 +150,6 @@ void BasicMultigrid<Real>::ConvertLevels(std::vector<MultigridLevel> levels)
     to.A = InSinglePrecision(from.A, threads);
     if (isCoarsest)
     {
-      coarse_ = CoarseSolver(from.A, threads);
       break;
     }
     to.prolongation = InSinglePrecision(from.prolongation, threads);
@@ -122,7 +164,6 @@ void BasicMultigrid<Real>::ConvertLevels(std::vector<MultigridLevel> levels)
     unresolved += counts[1];
   }
   isReliable_ = unresolved <= UnresolvedShare * patches;
-  isSingle_.assign(levels_.size(), 0);
 }
 
 template<class Real>
@@ -138,6 +179,13 @@ void BasicMultigrid<Real>::Update(const std::function<void(std::size_t, SparseMa
 template<class Real>
 void BasicMultigrid<Real>::BuildSolvers()
 {
+  coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+  this->UseDevice(levels_);
+  if (device_)
+  {
+    isSingle_.assign(levels_.size(), 0);
+    return;
+  }
   for (std::size_t l = 0; !this->IsCoarsest(l); ++l)
   {
     MultigridLevel& level = levels_[l];
@@ -147,7 +195,6 @@ void BasicMultigrid<Real>::BuildSolvers()
       level.smoother = this->MakeSmoother(level);
     }
   }
-  coarse_ = CoarseSolver(levels_.back().A, options_.threads);
   this->FindSingleLevels();
 }
 
@@ -225,6 +272,10 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
 template<class Real>
 bool BasicMultigrid<Real>::HasSingleFactors() const
 {
+  if (device_)
+  {
+    return true;
+  }
   double single = std::any_of(levels_.begin(), levels_.end(),
                     [](const MultigridLevel& level)
                     { return level.smoother && level.smoother->HasSingleFactors(); })
@@ -240,16 +291,37 @@ bool BasicMultigrid<Real>::HasSingleFactors() const
 template<class Real>
 BasicMultigrid<Real> BasicMultigrid<Real>::InDoublePrecision() const
 {
-  std::vector<MultigridLevel> levels(levels_.size());
-  for (std::size_t l = 0; l < levels_.size(); ++l)
-  {
-    const MultigridLevel& from = levels_[l];
-    levels[l] = { from.A, from.prolongation, from.restriction, from.order, from.groups,
-      from.smoothing, from.distributed, nullptr };
-  }
   MultigridOptions options = options_;
   options.precision = FactorPrecision::Double;
-  return Multigrid(std::move(levels), options);
+  return Multigrid(CopyLevels(levels_), options);
+}
+
+template<class Real>
+std::string BasicMultigrid<Real>::Where() const
+{
+  const std::string failure = device_ ? device_->Failure() : whyNotOnDevice_;
+  return failure.empty() ? "GPU: " + device_->Name() : "CPU: " + failure;
+}
+
+/// The same hierarchy on the CPU, once the device has failed.
+template<class Real>
+auto BasicMultigrid<Real>::OnCpu() const -> const BasicMultigrid&
+{
+  std::call_once(spare_->isMade,
+    [&]
+    {
+      MultigridOptions options = options_;
+      options.device = DeviceChoice::Cpu;
+      if constexpr (PrecisionTraits<Real>::IsSingle)
+      {
+        spare_->onCpu = std::make_unique<const BasicMultigrid>(CopyLevels(spare_->levels), options);
+      }
+      else
+      {
+        spare_->onCpu = std::make_unique<const BasicMultigrid>(CopyLevels(levels_), options);
+      }
+    });
+  return *spare_->onCpu;
 }
 
 template<class Real>
@@ -277,9 +349,13 @@ bool FitSinglePrecision(const std::vector<MultigridLevel>& levels, const Multigr
     });
 }
 
+template auto BasicMultigrid<float>::OnCpu() const -> const BasicMultigrid<float>&;
+template auto BasicMultigrid<double>::OnCpu() const -> const BasicMultigrid<double>&;
 template BasicMultigrid<float>::BasicMultigrid(
   std::vector<MultigridLevel>, const MultigridOptions&);
 template std::size_t BasicMultigrid<float>::Memory() const;
+template std::string BasicMultigrid<float>::Where() const;
+template std::string BasicMultigrid<double>::Where() const;
 
 template BasicMultigrid<double>::BasicMultigrid(
   std::vector<MultigridLevel>, const MultigridOptions&);

@@ -5,10 +5,13 @@
 #include "Base/Pool.h"
 #include "Multigrid/BlockPreconditioner.h"
 #include "Multigrid/CoarseSolver.h"
+#include "Multigrid/DeviceHierarchy.h"
 #include "Multigrid/MultigridLevel.h"
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <vector>
 
 namespace gridfem
@@ -23,14 +26,16 @@ struct MultigridOptions
   FactorPrecision precision = FactorPrecision::Mixed; // precision of the patch smoother's factors
   int sweepsPerSynchronization = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
+  /// A GPU has one kind of cycle. Other values of the options above keep the cycle on the CPU.
+  DeviceChoice device = DeviceChoice::Automatic;
 };
 
-/// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors. Solves need
-/// double. Float suits corrections of many columns that need only a few correct digits. It offers
-/// only PreconditionRows. Sweeps may be in single precision with both. Const methods are safe to
-/// call from several threads, unless processes divide a level. The constructor and every method are
-/// then collective. Vectors of a distributed level have a row for each unknown that this process
-/// holds.
+/// A hierarchy that is ready to cycle, on the CPU or on a device. Real is the precision of matrices
+/// and vectors. Solves need double. Float suits corrections of many columns that need only a few
+/// correct digits. It offers only PreconditionRows. Sweeps may be in single precision with both.
+/// Const methods are safe to call from several threads, unless processes divide a level. The
+/// constructor and every method are then collective. Vectors of a distributed level have a row for
+/// each unknown that this process holds.
 template<class Real>
 class BasicMultigrid
 {
@@ -55,8 +60,8 @@ public:
   /// vanish. Always true in double precision.
   bool IsReliable() const { return isReliable_; }
 
-  /// A copy whose patch smoothers store all factors in double precision. It shares patterns and
-  /// prolongations.
+  /// A copy on the CPU whose patch smoothers store all factors in double precision. It shares
+  /// patterns and prolongations.
   BasicMultigrid InDoublePrecision() const;
 
   /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors for the next call,
@@ -88,9 +93,18 @@ public:
   const MultigridOptions& Options() const { return options_; }
   std::size_t Memory() const;
 
+  /// The device that cycles; null if the CPU does.
+  const DeviceHierarchy* OnDevice() const { return device_.get(); }
+  /// Why no device cycles; empty if one does.
+  const std::string& WhyNotOnDevice() const { return whyNotOnDevice_; }
+  /// Where cycles run, and why not on the other one: "GPU: NVIDIA H100", "CPU: the problem is
+  /// small".
+  std::string Where() const;
+
 private:
   void ConvertLevels(std::vector<MultigridLevel> levels);
   void BuildSolvers();
+  void UseDevice(const std::vector<MultigridLevel>& levels);
   void FindSingleLevels();
   std::unique_ptr<BasicSmoother<Real>> MakeSmoother(MultigridLevel& level) const;
   std::unique_ptr<BasicSmoother<Real>> MakeFirstSmoother(MultigridLevel& level) const;
@@ -123,6 +137,8 @@ private:
   void CheckRows(std::size_t level, Id rows) const;
   void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
+  const BasicMultigrid& OnCpu() const;
+  void CorrectOnDevice(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x) const;
   void Correct(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
   void Improve(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
@@ -141,6 +157,16 @@ private:
   bool isReliable_ = true;
   CoarseSolver coarse_;
   MultigridOptions options_;
+  std::unique_ptr<DeviceHierarchy> device_;
+  std::string whyNotOnDevice_;
+  /// What goes on if the device fails.
+  struct Spare
+  {
+    std::vector<MultigridLevel> levels; // of a hierarchy in single precision, which keeps no orders
+    std::once_flag isMade;
+    std::unique_ptr<const BasicMultigrid> onCpu;
+  };
+  std::unique_ptr<Spare> spare_; // null without a device
   std::unique_ptr<Pool<Workspace>> workspace_ = std::make_unique<Pool<Workspace>>();
 };
 

@@ -91,11 +91,30 @@ void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& 
   }
 }
 
+/// x = B b on the device, or on the CPU if the device fails.
+template<class Real>
+void BasicMultigrid<Real>::CorrectOnDevice(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x) const
+{
+  if (device_->Precondition(l, b, x))
+  {
+    return;
+  }
+  const BasicMultigrid& onCpu = this->OnCpu();
+  const typename Pool<Workspace>::Loan workspace(*onCpu.workspace_);
+  onCpu.Correct(l, b, x, (*workspace).For(onCpu.levels_.size(), b.cols()));
+}
+
 /// x = B b. Levels in single precision get b in units of its columns.
 template<class Real>
 void BasicMultigrid<Real>::Correct(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
 {
+  if (device_)
+  {
+    this->CorrectOnDevice(l, b, x);
+    return;
+  }
   if (!isSingle_[l])
   {
     this->CycleLevel(l, b, x, true, scratch);
@@ -113,7 +132,7 @@ template<class Real>
 void BasicMultigrid<Real>::Improve(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
 {
-  if (!isSingle_[l])
+  if (!device_ && !isSingle_[l])
   {
     this->CycleLevel(l, b, x, false, scratch);
     return;
@@ -122,6 +141,12 @@ void BasicMultigrid<Real>::Improve(
   Vectors<Real>& residual = scratch[l].b;
   Vectors<Real>& correction = scratch[l].x;
   levels_[l].Residual(b, x, residual, threads);
+  if (device_)
+  {
+    this->CorrectOnDevice(l, residual, correction);
+    x += correction;
+    return;
+  }
   const Columns unit = InUnits(residual, levels_[l].Rows(), residual, threads);
   this->CycleLevel(l, residual, correction, true, scratch);
   AddInUnits(correction, unit, x, threads);
@@ -241,6 +266,17 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   {
     distributed->Sum(b);
     norm = levels_[l].Products(b, b, threads);
+  }
+  if (device_)
+  {
+    this->CorrectOnDevice(l, b, x);
+    const ResidualMeasures measures{ levels_[l].Products(b, x, threads).head(r.columns),
+      norm.head(r.columns) };
+    if (isWanted(measures))
+    {
+      StoreRows(x, r.columns, z, threads);
+    }
+    return measures;
   }
   const Columns unit = isSingle_[l] ? InUnits(b, distributed, b, threads) : Columns::Ones(width);
   Columns energy;

@@ -379,6 +379,7 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   done.step = ++step_;
   done.time = step_ * options_.timeStep;
   done.iterations = solution.report.iterations;
+  done.where = solution.report.where;
   done.lockedSamples = lockedSamples;
   done.converged = solution.report.converged;
   done.accuracy = solution.accuracy;

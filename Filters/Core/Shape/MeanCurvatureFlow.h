@@ -73,6 +73,7 @@ struct FlowStep
   int iterations = 0;
   Id lockedSamples = 0; // samples with a singular metric when the step began (SetMetric)
   bool converged = true;
+  std::string where; // the device of the cycles; see Multigrid::Where
   /// Errors of this step's displacement. They are relative to its length in the mean square; the
   /// largest error is in world units. The error of the iteration is unknown. Errors of earlier
   /// steps and of the finite time step are not included.

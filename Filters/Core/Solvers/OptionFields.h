@@ -88,6 +88,7 @@ void ForEachOf(Equation& equation, Visit&& visit)
   visit("PostSweeps", multigrid.postSweeps, AtLeast(0));
   visit("Precision", multigrid.precision, Within(0, 2));
   visit("SweepsPerSynchronization", multigrid.sweepsPerSynchronization, AtLeast(1));
+  visit("Device", multigrid.device, Within(0, 2));
   auto& solve = equation.solve;
   visit("Tolerance", solve.tolerance, AtLeast(0.0));
   visit("MaximumIterations", solve.maximumIterations, AtLeast(0));

@@ -226,6 +226,7 @@ void SignatureSolver::UpdateModes(
       result_.modes = std::move(modes);
     });
   result_.isConverged = solved.spectrum.converged;
+  result_.where = solved.spectrum.where;
   result_.warnings = solved.warnings;
 }
 

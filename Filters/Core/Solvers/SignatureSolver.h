@@ -94,6 +94,7 @@ public:
                               // constants, or to the values if no mode is constant
     ///@}
     bool isConverged = true;
+    std::string where; // the device of the cycles; empty if modes are given
     std::vector<std::string> warnings;
   };
 

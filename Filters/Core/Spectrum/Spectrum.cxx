@@ -305,6 +305,7 @@ Spectrum NestedIteration<Real>::Run(
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
   spectrum.singlePrecision = cycle_.IsSingle();
+  spectrum.where = cycle_.Where();
   return spectrum;
 }
 

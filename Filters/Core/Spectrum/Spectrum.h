@@ -34,6 +34,7 @@ struct Spectrum
   int numberOfConverged = 0;       // how many did
   int iterations = 0;              // on the finest level
   bool singlePrecision = false;    // of all cycles (SpectrumCycle); the result is in double
+  std::string where;               // the device of the cycles; see Multigrid::Where
   bool truncated = false;          // fewer modes exist than were asked for
   Index numberOfConstants = 0;     // how many exist: one per connected component
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last

@@ -11,7 +11,7 @@ SpectrumCycle::SpectrumCycle(
     BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5));
   if (!FitSinglePrecision(levels, options))
   {
-    double_ = std::make_unique<Multigrid>(std::move(levels), options);
+    double_ = std::make_unique<Multigrid>(std::move(levels), this->InDouble());
     return;
   }
   single_ = std::make_unique<BasicMultigrid<float>>(std::move(levels), options);
@@ -22,9 +22,18 @@ SpectrumCycle::SpectrumCycle(
   }
 }
 
+/// A device cycles in single precision.
+MultigridOptions SpectrumCycle::InDouble() const
+{
+  MultigridOptions options = options_;
+  options.device = DeviceChoice::Cpu;
+  return options;
+}
+
 void SpectrumCycle::BuildDouble(const Progress& progress)
 {
-  double_ = std::make_unique<Multigrid>(BuildMultigrid(space_, shift_, 1.0, options_, progress));
+  double_ =
+    std::make_unique<Multigrid>(BuildMultigrid(space_, shift_, 1.0, this->InDouble(), progress));
 }
 
 template<class Real>

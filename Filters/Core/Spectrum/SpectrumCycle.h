@@ -6,6 +6,7 @@
 #include "Spaces/SpaceLevels.h"
 
 #include <memory>
+#include <string>
 
 namespace gridfem
 {
@@ -28,7 +29,11 @@ public:
   /// Whether double precision was never needed.
   bool IsSingle() const { return !double_; }
 
+  /// Where the last cycles ran; see Multigrid::Where.
+  std::string Where() const { return double_ ? double_->Where() : single_->Where(); }
+
 private:
+  MultigridOptions InDouble() const;
   void BuildDouble(const Progress& progress);
 
   const SpaceLevels& space_;

@@ -183,6 +183,7 @@ Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const Spectru
   EigenPairs<double> pairs;
   BlockReport report;
   Eigen::MatrixXd matched;
+  std::string where;
   if (options.numberOfModes > zeros && all > 0)
   {
     problem.shift = LowestValue(start);
@@ -198,10 +199,12 @@ Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const Spectru
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
     matched = MatchStart(problem, pairs, prolongation, start);
+    where = multigrid.Where();
   }
   Spectrum spectrum =
     CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem, matched);
   AddErrorsBeyond(matched, spectrum);
+  spectrum.where = where;
   const auto others = static_cast<Index>(report.residuals.size());
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options.numberOfModes;
   spectrum.cutsMultiplet = listed < zeros || EndsInside(pairs.values, zeros, others);

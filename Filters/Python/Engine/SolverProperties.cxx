@@ -19,6 +19,8 @@ void TakeProperty::operator()(EquationOptions& equation) const
   }
   equation.solve.maximumIterations = properties.Integer(
     "MaximumIterations", equation.solve.maximumIterations, 1, std::numeric_limits<int>::max());
+  equation.multigrid.device = static_cast<DeviceChoice>(
+    properties.Integer("Device", static_cast<int>(equation.multigrid.device), 0, 2));
 }
 
 void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options, double leastStabilization)

@@ -137,8 +137,20 @@ vtkSmartPointer<vtkDataArray> MakeSolution(
   return array;
 }
 
+void AddDevice(const std::string& where, vtkPolyData* output)
+{
+  if (!where.empty())
+  {
+    const vtkNew<vtkStringArray> array;
+    array->SetName("Device");
+    array->InsertNextValue(where);
+    output->GetFieldData()->AddArray(array);
+  }
+}
+
 void AddReport(const SolveReport& report, vtkPolyData* output)
 {
+  AddDevice(report.where, output);
   AddFieldInt(output, "Converged", report.converged ? 1 : 0);
   AddFieldInt(output, "Iterations", report.iterations);
   AddFieldInt(output, "DoublePrecisionSince", report.doubleSince);

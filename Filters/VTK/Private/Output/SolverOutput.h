@@ -46,7 +46,7 @@ vtkSmartPointer<vtkDataArray> MakeSolution(
 void KeepUnsolved(vtkDataArray* given, MultiVector& values);
 
 /// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
-/// -1: none), Residual and ConvergenceFactor (mean per iteration).
+/// -1: none), Residual, ConvergenceFactor (mean per iteration) and Device.
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
 /// Adds the field arrays DiscretizationError, LargestDiscretizationError, AlgebraicError and
@@ -56,6 +56,10 @@ void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
 
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
+
+/// Adds the field array Device, which tells where cycles ran and why not on the other device. Adds
+/// nothing if none ran.
+void AddDevice(const std::string& where, vtkPolyData* output);
 
 /// The field array that is 1 if ranks have computed together.
 constexpr const char* DistributedName = "Distributed";

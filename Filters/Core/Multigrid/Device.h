@@ -1,0 +1,127 @@
+// What the cycle asks of a device such as a GPU. A library that is opened at run time offers it, so
+// that Core and programs depend on no driver.
+#ifndef GridFEM_Device_h
+#define GridFEM_Device_h
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Where cycles run.
+enum class DeviceChoice
+{
+  Automatic = 0, // on a GPU if there is one and the problem is large enough to gain by it
+  Cpu = 1,
+  Gpu = 2 // on a GPU if there is one
+};
+
+/// A sparse matrix in compressed rows. Whoever gives it keeps the arrays until the call returns.
+struct DeviceMatrix
+{
+  std::int32_t rows = 0;
+  const std::int64_t* rowBegin = nullptr; // rows + 1 entries
+  const std::int32_t* column = nullptr;
+  const double* value = nullptr;
+};
+
+/// Groups of unknowns that are relaxed together; see UnknownGroups.
+struct DeviceGroups
+{
+  std::int32_t size = 0; // of every group, at most 64
+  std::int64_t count = 0;
+  const std::int32_t* unknown = nullptr;
+};
+
+/// A group of a level.
+struct DeviceGroup
+{
+  std::size_t set = 0; // in DeviceLevel::groups
+  std::int64_t group = 0;
+};
+
+/// One level of a hierarchy.
+struct DeviceLevel
+{
+  DeviceMatrix A;
+  ///@{ Of all levels but the coarsest.
+  std::vector<DeviceGroups> groups;
+  bool isSingly = false; // each unknown is a group of its own, besides
+  DeviceMatrix schwarz;  // pattern of all groups; no rows: that of A has it
+  DeviceMatrix prolongation;
+  DeviceMatrix restriction;
+  ///@}
+  DeviceMatrix inverse; // of the coarsest level
+};
+
+/// Kind of the numbers of a block.
+enum class DeviceNumbers
+{
+  Single,
+  Double
+};
+
+/// The cycles of one hierarchy, in the memory of a device and in single precision. All functions
+/// may throw std::runtime_error with the driver's message. Not safe to call from several threads at
+/// once.
+class DeviceCycles
+{
+public:
+  virtual ~DeviceCycles() = default;
+
+  /// Takes new values of the matrices, on the same patterns.
+  virtual void Update(const std::vector<DeviceLevel>& levels) = 0;
+
+  /// The groups of a level with directions that single precision does not resolve. The smoother
+  /// leaves these directions out.
+  virtual const std::vector<DeviceGroup>& Unresolved(int level) const = 0;
+
+  /// Memory of the host for a block with the rows of a level, row after row. It stays valid until
+  /// the next call.
+  virtual void* Room(int level, int columns, DeviceNumbers numbers) = 0;
+
+  /// Replaces the block b in Room by B b: one V cycle on the hierarchy that begins at `level`. The
+  /// smoother is a Chebyshev polynomial of the fourth kind in M A, where M is the sum of the
+  /// inverses of all groups' blocks (additive Schwarz). B is symmetric positive semi-definite. Same
+  /// bits for every call on one card.
+  virtual void Precondition(int level, int columns, DeviceNumbers numbers) = 0;
+
+  /// Time of the last cycle on the device, without copies.
+  virtual double Seconds() const = 0;
+
+  /// Memory on the device in bytes.
+  virtual std::size_t Memory() const = 0;
+};
+
+struct Device
+{
+  std::string name; // of the card
+  /// Copies a hierarchy to the device. Finest level first.
+  std::function<std::unique_ptr<DeviceCycles>(const std::vector<DeviceLevel>&)> make;
+};
+
+/// Opens a library of devices. It stays open until the process ends, because its driver has threads
+/// of its own.
+/// @param whyNot  receives the reason for null
+std::shared_ptr<const Device> OpenDevice(const std::string& path, std::string& whyNot);
+
+/// The device of this process, or null. The first call looks for the library of GPUs, beside Core.
+/// The environment variable GRIDFEM_DEVICE_LIBRARY names another library.
+/// @param whyNot  receives the reason if there is none
+std::shared_ptr<const Device> FindDevice(std::string& whyNot);
+
+/// Replaces the device of this process; null: none.
+void UseDevice(std::shared_ptr<const Device> device);
+
+/// The function that a library of devices exports: fills `device`, or says why it cannot.
+using OpenDeviceFunction = bool (*)(Device& device, std::string& whyNot);
+constexpr const char* OpenDeviceName = "GridFEMOpenDevice";
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,2 @@
+// The source of the device library, for nvcc.
+#include "Cycles.cxx"
