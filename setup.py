@@ -39,7 +39,7 @@ class Build(build_ext):
         build = pathlib.Path(self.build_temp).resolve() / level
         native = level == "native"
         cmake("-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-              "-DGRIDFEM_BUILD_PYTHON=ON", "-DGRIDFEM_BUILD_VTK=OFF", "-DGRIDFEM_BUILD_TESTING=OFF",
+              "-DGRIDFEM_BUILD_PYTHON=ON", "-DGRIDFEM_BUILD_VTK=OFF", "-DGRIDFEM_CUDA=OFF", "-DGRIDFEM_BUILD_TESTING=OFF",
               f"-DGRIDFEM_NATIVE={'ON' if native else 'OFF'}",
               f"-DCMAKE_CXX_FLAGS={'' if native else '-march=x86-64-' + level}",
               f"-DGRIDFEM_PYTHON_FOLDER={'.' if native else level}",

@@ -7,12 +7,12 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
   cat << 'HELP'
 Usage: Testing/device.sh [--build | --run FOLDER]
 
-Builds Core, the library of GPUs and their programs into build-device/, runs the tests of devices on
-the GPU, once more with compute-sanitizer, and prints a table of times with RATIO lines.
+Builds Core, the GPU library and two programs in build-device/. Runs the tests of devices on the GPU,
+and again with compute-sanitizer if it is installed. Then prints a table of times and RATIO lines.
 
-  --build        only builds, for any processor of 2015 or later
-  --run FOLDER   only runs what --build has made, on a machine without compilers; FOLDER has
-                 build-device/ and the real meshes
+  --build        only builds, for x86-64-v3 (AVX2)
+  --run FOLDER   only runs the programs of --build. FOLDER contains build-device/ and the real
+                 meshes. No compiler is needed
 
 Environment:
   GRIDFEM_DATA_DIR   folder of real meshes (default: ../shared/data beside the sources)

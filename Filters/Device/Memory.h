@@ -40,7 +40,7 @@ struct Sum
   GRIDFEM_ON_DEVICE static double Of(double a, double b) { return a + b; }
 };
 
-/// Of numbers that are not negative. NaN is larger than any number.
+/// For numbers that are not negative. NaN is larger than any number.
 struct Largest
 {
   GRIDFEM_ON_DEVICE static double Of(double a, double b) { return a >= b || a != a ? a : b; }
@@ -436,13 +436,14 @@ inline std::string CardName(std::string& whyNot)
 {
   int count = 0;
   cudaDeviceProp card;
-  const cudaError_t error = cudaGetDeviceCount(&count);
+  cudaError_t error = cudaGetDeviceCount(&count);
   if (error == cudaErrorInsufficientDriver || error == cudaErrorNoDevice || count == 0)
   {
-    whyNot = "there is no NVIDIA card with a driver for this library";
+    whyNot = "there is no NVIDIA card, or its driver is missing or too old";
     return "";
   }
-  if (error != cudaSuccess || cudaGetDeviceProperties(&card, 0) != cudaSuccess)
+  error = error == cudaSuccess ? cudaGetDeviceProperties(&card, 0) : error;
+  if (error != cudaSuccess)
   {
     whyNot = cudaGetErrorString(error);
     return "";

@@ -239,8 +239,8 @@ public:
   /**
    * Where solvers compute their cycles: AutomaticDevice (default), CPU or GPU. A GPU computes in
    * single precision. The solution meets the same tolerance, but may differ within it. If the GPU
-   * cannot compute or fails, the CPU goes on. The field array Device tells where cycles ran, and
-   * why not on the other one. MPI ranks that share a surface use no GPU.
+   * cannot compute or fails, the CPU goes on. The field array Device of solvers names the device,
+   * and the reason if it is the CPU. MPI ranks that compute together use no GPU.
    */
   vtkSetInRangeMacro(Device, int, AutomaticDevice, GPU);
   vtkGetMacro(Device, int);

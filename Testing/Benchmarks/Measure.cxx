@@ -1,6 +1,7 @@
 #include "Measure.h"
 
 #include "Base/LargeMemory.h"
+#include "Multigrid/Device.h"
 
 #include <malloc.h>
 #include <poll.h>
@@ -22,6 +23,13 @@ namespace gridfem::benchmarks
 
 namespace
 {
+
+/// Benchmarks measure the CPU, also on a machine with a GPU.
+[[maybe_unused]] const bool isOnCpu = []
+{
+  UseDevice(nullptr);
+  return true;
+}();
 
 constexpr int LookEveryMilliseconds = 100;
 

@@ -85,7 +85,7 @@ TEST(Device, AutomaticLeavesSmallSurfacesToTheCpu)
   const FilterCase poisson{ "ScreenedPoisson", &Make<vtkScreenedPoisson> };
   const auto filter = RunOn(poisson, surface, vtkSurfaceFEMAlgorithm::AutomaticDevice);
   EXPECT_EQ(filter->GetDevice(), 0);
-  EXPECT_EQ(DeviceOf(filter), "CPU: the problem is small");
+  EXPECT_EQ(DeviceOf(filter), "CPU: there are few functions");
   UseDevice(nullptr);
   filter->SetDevice(vtkSurfaceFEMAlgorithm::GPU);
   filter->Update();

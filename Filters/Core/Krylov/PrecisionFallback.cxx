@@ -12,9 +12,11 @@ namespace
 /// Joins two histories. The second begins where the first ends.
 SolveReport Join(SolveReport first, const SolveReport& second)
 {
+  const bool wasOnDevice = second.where.rfind("GPU", 0) == 0; // the operator is the same
   first.history.pop_back();
   first.doubleSince = first.iterations;
   Append(second, first);
+  first.where = wasOnDevice ? "CPU: the solution needs double precision" : second.where;
   return first;
 }
 

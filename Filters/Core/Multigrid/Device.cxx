@@ -37,7 +37,10 @@ std::shared_ptr<const Device> OpenDevice(
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library)
   {
-    whyNot = "this installation has no library of GPUs";
+    const std::string error = dlerror();
+    whyNot = error.find("No such file") != std::string::npos
+               ? "this installation has no GPU library"
+               : "the GPU library cannot be loaded (" + error + ")";
     return nullptr;
   }
   const auto open = reinterpret_cast<OpenDeviceFunction>(dlsym(library, OpenDeviceName));
@@ -48,7 +51,7 @@ std::shared_ptr<const Device> OpenDevice(
   }
   if (!open)
   {
-    whyNot = path + " is no library of GPUs";
+    whyNot = path + " is not a GPU library of this version";
   }
 #else
   whyNot = "GPUs are not used on this system";

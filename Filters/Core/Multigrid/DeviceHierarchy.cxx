@@ -3,6 +3,7 @@
 #include "Algebra/FillRows.h"
 #include "Base/Grouping.h"
 #include "Base/PrecisionTraits.h"
+#include "Base/UnionFind.h"
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/Multigrid.h"
 
@@ -19,6 +20,44 @@ constexpr Index LeastUnknowns = 20000;
 
 /// More groups with directions that single precision does not resolve make the cycle too weak.
 constexpr double MostUnresolved = 1e-2; // of all groups
+
+constexpr double SmallestPivot = PrecisionTraits<float>::SmallestPatchPivot;
+
+/// Whether constants of a component have so little energy that single precision does not resolve
+/// it. In contrast to functions that vanish on the surface, they matter.
+bool HasFaintConstants(const SparseMatrix& A)
+{
+  constexpr double Rounding = 1e-13;
+  UnionFind sets(A.rows);
+  std::vector<double> energy(A.rows, 0.0);
+  std::vector<double> trace(A.rows, 0.0);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      sets.Unite(row, A.column[k]);
+    }
+  }
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    const Index set = sets.Find(row);
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      energy[set] += A.value[k];
+      trace[set] += A.column[k] == row ? A.value[k] : 0.0;
+    }
+  }
+  for (Index set = 0; set < A.rows; ++set)
+  {
+    if (energy[set] > Rounding * trace[set] && energy[set] < SmallestPivot * trace[set])
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+constexpr const char* SmallWeight = "a small weight needs double precision";
 
 /// The reason why a device does not take these levels; empty if it does.
 std::string Obstacle(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
@@ -39,9 +78,13 @@ std::string Obstacle(const std::vector<MultigridLevel>& levels, const MultigridO
   }
   if (options.device == DeviceChoice::Automatic && levels.front().A.rows < LeastUnknowns)
   {
-    return "the problem is small";
+    return "there are few functions";
   }
-  return levels.size() < 2 ? "there is only one level" : "";
+  if (levels.size() < 2)
+  {
+    return "there is only one level";
+  }
+  return HasFaintConstants(levels.back().A) ? SmallWeight : "";
 }
 
 DeviceMatrix ViewOf(const SparseMatrix& A)
@@ -82,8 +125,7 @@ class DeviceView
 {
 public:
   DeviceView(const std::vector<MultigridLevel>& from, int threads)
-    : inverse_(
-        CoarseSolver(from.back().A, threads, PrecisionTraits<float>::SmallestPatchPivot).Inverse()),
+    : inverse_(CoarseSolver(from.back().A, threads, SmallestPivot).Inverse()),
       patterns_(from.size())
   {
     for (std::size_t l = 0; l < from.size(); ++l)
@@ -123,20 +165,29 @@ private:
   std::vector<SparseMatrix> patterns_; // of the additive Schwarz matrices that differ from A's
 };
 
-/// x += Σ R_pᵀ A_p⁻¹ R_p b over some groups p of unknowns.
+/// The rows of V for the pivots of a group that single precision leaves out.
+GroupFactor RestOf(const BlockSource& source, UnknownGroup group)
+{
+  const Id known = FactorGroup(source, group, SmallestPivot).V.rows();
+  GroupFactor factor = FactorGroup(source, group, PrecisionTraits<double>::SmallestPatchPivot);
+  factor.V = factor.V.bottomRows(factor.V.rows() - known).eval();
+  return factor;
+}
+
+/// x += Σ R_pᵀ Vᵀ V R_p b over some groups p of unknowns.
 template<class Real>
 void AddSolutions(const std::vector<GroupFactor>& groups, const Vectors<Real>& b, Vectors<Real>& x)
 {
   for (const GroupFactor& group : groups)
   {
-    const Id rank = group.V.rows();
-    Eigen::MatrixXd part(rank, b.cols());
-    for (Id i = 0; i < rank; ++i)
+    const Id size = group.V.cols();
+    Eigen::MatrixXd part(size, b.cols());
+    for (Id i = 0; i < size; ++i)
     {
       part.row(i) = b.row(group.unknown[i]).template cast<double>();
     }
     part = group.V.transpose() * (group.V * part).eval();
-    for (Id i = 0; i < rank; ++i)
+    for (Id i = 0; i < size; ++i)
     {
       x.row(group.unknown[i]) += part.row(i).template cast<Real>();
     }
@@ -191,6 +242,11 @@ bool DeviceHierarchy::Update(const std::vector<MultigridLevel>& levels, std::str
     whyNot = failure_;
     return false;
   }
+  if (HasFaintConstants(levels.back().A))
+  {
+    whyNot = SmallWeight;
+    return false;
+  }
   try
   {
     const DeviceView view(levels, threads_);
@@ -228,8 +284,7 @@ bool DeviceHierarchy::TakeUnresolved(const std::vector<MultigridLevel>& levels,
     {
       const DeviceGroups& set = views[l].groups[own.set];
       unresolved_[l].push_back(
-        FactorGroup(source, UnknownGroup(set.unknown + own.group * set.size, set.size),
-          PrecisionTraits<double>::SmallestPatchPivot));
+        RestOf(source, UnknownGroup(set.unknown + own.group * set.size, set.size)));
     }
   }
   if (unresolved > MostUnresolved * all)
@@ -242,12 +297,17 @@ bool DeviceHierarchy::TakeUnresolved(const std::vector<MultigridLevel>& levels,
 
 template<class Real>
 bool DeviceHierarchy::Precondition(
-  std::size_t level, const Vectors<Real>& b, Vectors<Real>& x) const
+  std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool isMeasured) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!failure_.empty())
   {
     return false;
+  }
+  MakeRoom(b.rows(), b.cols(), x);
+  if (b.size() == 0)
+  {
+    return true;
   }
   const auto l = static_cast<int>(level);
   const auto columns = static_cast<int>(b.cols());
@@ -258,9 +318,11 @@ bool DeviceHierarchy::Precondition(
     auto* const room = static_cast<Real*>(cycles_->Room(l, columns, numbers));
     CopyNumbers(b.data(), b, room, threads_);
     cycles_->Precondition(l, columns, numbers);
-    MakeRoom(b.rows(), columns, x);
     CopyNumbers(room, b, x.data(), threads_);
-    AddSolutions(unresolved_[level], b, x);
+    if (isMeasured)
+    {
+      AddSolutions(unresolved_[level], b, x);
+    }
     return true;
   }
   catch (const std::runtime_error& error)
@@ -277,7 +339,8 @@ std::string DeviceHierarchy::Failure() const
 }
 
 template bool DeviceHierarchy::Precondition(
-  std::size_t, const Vectors<float>&, Vectors<float>&) const;
-template bool DeviceHierarchy::Precondition(std::size_t, const MultiVector&, MultiVector&) const;
+  std::size_t, const Vectors<float>&, Vectors<float>&, bool) const;
+template bool DeviceHierarchy::Precondition(
+  std::size_t, const MultiVector&, MultiVector&, bool) const;
 
 } // namespace gridfem

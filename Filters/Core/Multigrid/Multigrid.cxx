@@ -109,13 +109,13 @@ template<class Real>
 void BasicMultigrid<Real>::UseDevice(const std::vector<MultigridLevel>& levels)
 {
   spare_.reset();
-  if (!device_)
-  {
-    device_ = DeviceHierarchy::Make(levels, options_, whyNotOnDevice_);
-  }
-  else if (!device_->Update(levels, whyNotOnDevice_))
+  if (device_ && !device_->Update(levels, whyNotOnDevice_))
   {
     device_.reset();
+  }
+  else if (!device_ && whyNotOnDevice_.empty())
+  {
+    device_ = DeviceHierarchy::Make(levels, options_, whyNotOnDevice_);
   }
   if (device_)
   {

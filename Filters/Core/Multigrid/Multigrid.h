@@ -26,7 +26,8 @@ struct MultigridOptions
   FactorPrecision precision = FactorPrecision::Mixed; // precision of the patch smoother's factors
   int sweepsPerSynchronization = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
-  /// A GPU has one kind of cycle. Other values of the options above keep the cycle on the CPU.
+  /// A GPU has V cycles and a smoother of its own. Another smoother, number of sweeps or precision
+  /// than the default keeps the cycles on the CPU.
   DeviceChoice device = DeviceChoice::Automatic;
 };
 
@@ -52,7 +53,8 @@ public:
   /// must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
-  /// Whether a patch smoother of any process stores factors in single precision.
+  /// Whether a patch smoother of any process stores factors in single precision, or a device
+  /// cycles.
   bool HasSingleFactors() const;
 
   /// Whether sweeps resolve all but a hundredth of the patches of all processes. Unresolved patches
@@ -88,17 +90,17 @@ public:
     const CorrectionTest& isWanted, const RowSink<Given>& z) const;
 
   const BasicSparseMatrix<Real>& Matrix() const { return levels_.front().A; }
-  /// The levels; in single precision they have no orders and groups.
+  /// The levels; in single precision they have no orders and groups, and on a device only A.
   const std::vector<BasicMultigridLevel<Real>>& Levels() const { return levels_; }
   const MultigridOptions& Options() const { return options_; }
   std::size_t Memory() const;
 
   /// The device that cycles; null if the CPU does.
   const DeviceHierarchy* OnDevice() const { return device_.get(); }
-  /// Why no device cycles; empty if one does.
+  /// Why no device cycles; empty if one does, or did until it failed.
   const std::string& WhyNotOnDevice() const { return whyNotOnDevice_; }
-  /// Where cycles run, and why not on the other one: "GPU: NVIDIA H100", "CPU: the problem is
-  /// small".
+  /// The device that cycles, and the reason if it is the CPU: "GPU: NVIDIA H100", "CPU: the problem
+  /// is small".
   std::string Where() const;
 
 private:
@@ -138,7 +140,8 @@ private:
   void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
   const BasicMultigrid& OnCpu() const;
-  void CorrectOnDevice(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x) const;
+  void CorrectOnDevice(
+    std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool isMeasured) const;
   void Correct(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
   void Improve(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
@@ -158,7 +161,7 @@ private:
   CoarseSolver coarse_;
   MultigridOptions options_;
   std::unique_ptr<DeviceHierarchy> device_;
-  std::string whyNotOnDevice_;
+  std::string whyNotOnDevice_; // once refused, a device is not tried again
   /// What goes on if the device fails.
   struct Spare
   {

@@ -91,12 +91,12 @@ void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& 
   }
 }
 
-/// x = B b on the device, or on the CPU if the device fails.
+/// x = B b on the device, or on the CPU if the device fails; see DeviceHierarchy::Precondition.
 template<class Real>
 void BasicMultigrid<Real>::CorrectOnDevice(
-  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x) const
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, bool isMeasured) const
 {
-  if (device_->Precondition(l, b, x))
+  if (device_->Precondition(l, b, x, isMeasured))
   {
     return;
   }
@@ -112,7 +112,7 @@ void BasicMultigrid<Real>::Correct(
 {
   if (device_)
   {
-    this->CorrectOnDevice(l, b, x);
+    this->CorrectOnDevice(l, b, x, true);
     return;
   }
   if (!isSingle_[l])
@@ -143,7 +143,7 @@ void BasicMultigrid<Real>::Improve(
   levels_[l].Residual(b, x, residual, threads);
   if (device_)
   {
-    this->CorrectOnDevice(l, residual, correction);
+    this->CorrectOnDevice(l, residual, correction, false);
     x += correction;
     return;
   }
@@ -269,7 +269,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   }
   if (device_)
   {
-    this->CorrectOnDevice(l, b, x);
+    this->CorrectOnDevice(l, b, x, true);
     const ResidualMeasures measures{ levels_[l].Products(b, x, threads).head(r.columns),
       norm.head(r.columns) };
     if (isWanted(measures))

@@ -36,6 +36,15 @@ void SpectrumCycle::BuildDouble(const Progress& progress)
     std::make_unique<Multigrid>(BuildMultigrid(space_, shift_, 1.0, this->InDouble(), progress));
 }
 
+std::string SpectrumCycle::Where() const
+{
+  if (double_ && options_.device != DeviceChoice::Cpu)
+  {
+    return "CPU: the modes need double precision";
+  }
+  return double_ ? double_->Where() : single_->Where();
+}
+
 template<class Real>
 WithFallback<BlockPreconditioner<Real>> SpectrumCycle::From(std::size_t level)
 {

@@ -30,7 +30,7 @@ public:
   bool IsSingle() const { return !double_; }
 
   /// Where the last cycles ran; see Multigrid::Where.
-  std::string Where() const { return double_ ? double_->Where() : single_->Where(); }
+  std::string Where() const;
 
 private:
   MultigridOptions InDouble() const;

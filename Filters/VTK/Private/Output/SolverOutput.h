@@ -57,8 +57,8 @@ void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
-/// Adds the field array Device, which tells where cycles ran and why not on the other device. Adds
-/// nothing if none ran.
+/// Adds the field array Device: the device that computed cycles, and the reason if it is the CPU.
+/// Adds nothing if there were none.
 void AddDevice(const std::string& where, vtkPolyData* output);
 
 /// The field array that is 1 if ranks have computed together.
