@@ -8,6 +8,10 @@
 #define GRIDFEM_HAS_DLOPEN
 #endif
 
+// The build gives the name of a file without quotes, which not every shell passes on.
+#define GRIDFEM_QUOTED(text) #text
+#define GRIDFEM_QUOTE(text) GRIDFEM_QUOTED(text)
+
 namespace gridfem
 {
 namespace
@@ -66,7 +70,7 @@ std::shared_ptr<const Device> FindDevice(std::string& whyNot)
   if (!found.isSearched)
   {
     const char* const given = std::getenv("GRIDFEM_DEVICE_LIBRARY");
-    found.device = OpenDevice(given ? given : GRIDFEM_CUDA_LIBRARY, found.whyNot);
+    found.device = OpenDevice(given ? given : GRIDFEM_QUOTE(GRIDFEM_CUDA_LIBRARY), found.whyNot);
     found.isSearched = true;
   }
   whyNot = found.whyNot;
