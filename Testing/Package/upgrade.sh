@@ -11,7 +11,7 @@ if [ "${1:-}" != "--here" ]; then
   clone="$place/a clone"
   mkdir -p "$clone/Filters" "$clone/Testing/Package"
   cp -r "$source"/CMakeLists.txt "$source"/CMake "$source"/{LICENSE,README.md,CHANGELOG.md} "$clone"
-  cp -r "$source/Filters/Core" "$clone/Filters"
+  cp -r "$source"/Filters/{Core,Device} "$clone/Filters"
   cp "$source/Testing/build.sh" "$clone/Testing"
   cp "$source/Testing/Package/upgrade.sh" "$clone/Testing/Package"
   chmod -R u=rwX,go=rX "$place"
