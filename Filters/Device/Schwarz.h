@@ -10,16 +10,14 @@
 namespace gridfem::device
 {
 
-/// Pivots of a scaled block below this value stop its factorization. In their directions, rounding
-/// to single precision would disturb corrections more than they help.
-constexpr double SmallestPivot = 1e-6;
-
-/// Double precision does not resolve directions with smaller pivots, either. They are combinations
-/// of functions that vanish on the surface. Nothing is lost without them.
-constexpr double NullPivot = 1e-14;
-
 /// Unknowns of most groups: the functions of a cell. They have memory of their own in each thread.
 constexpr Index UsualGroup = 8;
+
+/// Whether a diagonal can be divided by.
+GRIDFEM_ON_DEVICE bool IsUsableDiagonal(double value)
+{
+  return value > 1e-200 && value < 1e200;
+}
 
 enum GroupState : unsigned char
 {
@@ -127,7 +125,7 @@ private:
         result = IsOutside;
       }
       const double diagonal = S[i * size + i];
-      scale[i] = diagonal > 1e-200 && diagonal < 1e200 ? 1.0 / sqrt(diagonal) : 0.0;
+      scale[i] = IsUsableDiagonal(diagonal) ? 1.0 / sqrt(diagonal) : 0.0;
     }
     for (Index i = 0; i < size; ++i)
     {
@@ -160,7 +158,7 @@ private:
           best = i;
         }
       }
-      if (!(S[best * size + best] >= SmallestPivot))
+      if (!(S[best * size + best] >= SmallestDevicePivot))
       {
         result |= S[best * size + best] <= NullPivot ? IsComplete : IsUnresolved;
         return k;
@@ -282,7 +280,7 @@ struct StartSum
       return;
     }
     const double own = diagonal[row];
-    const bool isUsable = own > 1e-200 && own < 1e200;
+    const bool isUsable = IsUsableDiagonal(own);
     places.ForEachEntry(row,
       [&](Id place, Index column)
       {

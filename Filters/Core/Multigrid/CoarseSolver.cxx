@@ -2,7 +2,6 @@
 
 #include "Algebra/PivotedCholesky.h"
 #include "Algebra/RowBuilder.h"
-#include "Base/Grouping.h"
 #include "Base/UnionFind.h"
 #include "Multigrid/BlockSweep.h"
 
@@ -15,22 +14,6 @@ namespace
 
 /// Components per parallel task. Most components have a handful of unknowns.
 constexpr Id ComponentsPerRange = 8;
-
-/// Unknowns of each connected component of the matrix graph.
-Groups FindComponents(const SparseMatrix& A)
-{
-  UnionFind sets(A.rows);
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      sets.Unite(row, A.column[k]);
-    }
-  }
-  Index count = 0;
-  const Array<Index> component = NumberSets(sets, count);
-  return GroupItems(component, count);
-}
 
 /// The part of A that couples the given unknowns (ascending), scaled.
 Eigen::MatrixXd ScaledBlock(
@@ -55,13 +38,28 @@ Eigen::MatrixXd ScaledBlock(
 
 } // namespace
 
+Groups ComponentsOf(const SparseMatrix& A)
+{
+  UnionFind sets(A.rows);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      sets.Unite(row, A.column[k]);
+    }
+  }
+  Index count = 0;
+  const Array<Index> component = NumberSets(sets, count);
+  return GroupItems(component, count);
+}
+
 CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads, double smallestPivot) : rows_(A.rows)
 {
   if (A.rows != A.columns)
   {
     throw InvalidInput("The coarsest matrix is not square.");
   }
-  const Groups members = FindComponents(A);
+  const Groups members = ComponentsOf(A);
   components_.resize(members.begin.size() - 1);
   ParallelRanges(
     static_cast<Id>(components_.size()), threads,

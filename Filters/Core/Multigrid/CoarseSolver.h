@@ -3,11 +3,15 @@
 #define GridFEM_CoarseSolver_h
 
 #include "Algebra/SparseMatrix.h"
+#include "Base/Grouping.h"
 
 #include <vector>
 
 namespace gridfem
 {
+
+/// The unknowns of each connected component of a matrix graph.
+Groups ComponentsOf(const SparseMatrix& A);
 
 /// Dense factors of a symmetric positive semi-definite matrix, one per connected component of its
 /// graph. Thousands of components therefore cost no more than one. It leaves out dependent

@@ -59,6 +59,14 @@ struct DeviceLevel
   DeviceMatrix inverse; // of A, on the coarsest level alone
 };
 
+/// Pivots of a group's scaled block below this value stop its factorization on a device. In their
+/// directions, rounding to single precision would disturb corrections more than they help.
+constexpr double SmallestDevicePivot = 1e-6;
+
+/// Double precision does not resolve directions with smaller pivots, either. They are combinations
+/// of functions that vanish on the surface. Nothing is lost without them.
+constexpr double NullPivot = 1e-14;
+
 /// Kind of the numbers of a block.
 enum class DeviceNumbers
 {
@@ -74,8 +82,8 @@ class DeviceCycles
 public:
   virtual ~DeviceCycles() = default;
 
-  /// Takes new values of the matrices, on the same patterns. After an exception, the object must
-  /// not be used any more.
+  /// Takes new values of the matrices and of the inverse, on the same patterns. After an exception,
+  /// the object must not be used any more.
   virtual void Update(const std::vector<DeviceLevel>& levels) = 0;
 
   /// The groups of a level with directions that single precision does not resolve. The smoother

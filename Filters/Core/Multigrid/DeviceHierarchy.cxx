@@ -1,9 +1,8 @@
 #include "Multigrid/DeviceHierarchy.h"
 
+#include "Algebra/BlockVectors.h"
 #include "Algebra/FillRows.h"
-#include "Base/Grouping.h"
 #include "Base/PrecisionTraits.h"
-#include "Base/UnionFind.h"
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/Multigrid.h"
 
@@ -21,35 +20,29 @@ constexpr Index LeastUnknowns = 20000;
 /// More groups with directions that single precision does not resolve make the cycle too weak.
 constexpr double MostUnresolved = 1e-2; // of all groups
 
-constexpr double SmallestPivot = PrecisionTraits<float>::SmallestPatchPivot;
+static_assert(SmallestDevicePivot == PrecisionTraits<float>::SmallestPatchPivot &&
+              NullPivot == PrecisionTraits<double>::SmallestPatchPivot);
 
 /// Whether constants of a component have so little energy that single precision does not resolve
 /// it. In contrast to functions that vanish on the surface, they matter.
 bool HasFaintConstants(const SparseMatrix& A)
 {
   constexpr double Rounding = 1e-13;
-  UnionFind sets(A.rows);
-  std::vector<double> energy(A.rows, 0.0);
-  std::vector<double> trace(A.rows, 0.0);
-  for (Index row = 0; row < A.rows; ++row)
+  const Groups components = ComponentsOf(A);
+  for (std::size_t c = 0; c + 1 < components.begin.size(); ++c)
   {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    double energy = 0.0;
+    double trace = 0.0;
+    for (Index k = components.begin[c]; k < components.begin[c + 1]; ++k)
     {
-      sets.Unite(row, A.column[k]);
+      const Index row = components.item[k];
+      for (Id entry = A.rowBegin[row]; entry < A.rowBegin[row + 1]; ++entry)
+      {
+        energy += A.value[entry];
+        trace += A.column[entry] == row ? A.value[entry] : 0.0;
+      }
     }
-  }
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    const Index set = sets.Find(row);
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      energy[set] += A.value[k];
-      trace[set] += A.column[k] == row ? A.value[k] : 0.0;
-    }
-  }
-  for (Index set = 0; set < A.rows; ++set)
-  {
-    if (energy[set] > Rounding * trace[set] && energy[set] < SmallestPivot * trace[set])
+    if (energy > Rounding * trace && energy < SmallestDevicePivot * trace)
     {
       return true;
     }
@@ -124,8 +117,9 @@ SparseMatrix PatternWith(const SparseMatrix& A, const UnknownGroups& groups, int
 class DeviceView
 {
 public:
-  DeviceView(const std::vector<MultigridLevel>& from, int threads)
-    : inverse_(CoarseSolver(from.back().A, threads, SmallestPivot).Inverse()),
+  /// @param isNew  else only matrices have new values
+  DeviceView(const std::vector<MultigridLevel>& from, int threads, bool isNew)
+    : inverse_(CoarseSolver(from.back().A, threads, SmallestDevicePivot).Inverse()),
       patterns_(from.size())
   {
     for (std::size_t l = 0; l < from.size(); ++l)
@@ -145,6 +139,9 @@ public:
       if (!from[l].groups.dof.IsEmpty())
       {
         Add(from[l].groups.dof, level);
+      }
+      if (isNew && !from[l].groups.dof.IsEmpty())
+      {
         patterns_[l] = PatternWith(from[l].A, from[l].groups.dof, threads);
         level.schwarz = ViewOf(patterns_[l]);
       }
@@ -168,8 +165,8 @@ private:
 /// The rows of V for the pivots of a group that single precision leaves out.
 GroupFactor RestOf(const BlockSource& source, UnknownGroup group)
 {
-  const Id known = FactorGroup(source, group, SmallestPivot).V.rows();
-  GroupFactor factor = FactorGroup(source, group, PrecisionTraits<double>::SmallestPatchPivot);
+  const Id known = FactorGroup(source, group, SmallestDevicePivot).V.rows();
+  GroupFactor factor = FactorGroup(source, group, NullPivot);
   factor.V = factor.V.bottomRows(factor.V.rows() - known).eval();
   return factor;
 }
@@ -194,16 +191,6 @@ void AddSolutions(const std::vector<GroupFactor>& groups, const Vectors<Real>& b
   }
 }
 
-/// Copies a block, in parallel.
-template<class Real>
-void CopyNumbers(const Real* from, const Vectors<Real>& shape, Real* to, int threads)
-{
-  const Id columns = shape.cols();
-  ParallelRanges(shape.rows(), ThreadsFor(shape.size(), threads),
-    [&](Id begin, Id end)
-    { std::copy(from + begin * columns, from + end * columns, to + begin * columns); });
-}
-
 } // namespace
 
 std::unique_ptr<DeviceHierarchy> DeviceHierarchy::Make(
@@ -223,7 +210,7 @@ std::unique_ptr<DeviceHierarchy> DeviceHierarchy::Make(
   hierarchy->threads_ = options.threads;
   try
   {
-    const DeviceView view(levels, options.threads);
+    const DeviceView view(levels, options.threads, true);
     hierarchy->cycles_ = hierarchy->device_->make(view.levels);
     return hierarchy->TakeUnresolved(levels, view.levels, whyNot) ? std::move(hierarchy) : nullptr;
   }
@@ -249,7 +236,7 @@ bool DeviceHierarchy::Update(const std::vector<MultigridLevel>& levels, std::str
   }
   try
   {
-    const DeviceView view(levels, threads_);
+    const DeviceView view(levels, threads_, false);
     cycles_->Update(view.levels);
     return this->TakeUnresolved(levels, view.levels, whyNot);
   }
@@ -264,17 +251,25 @@ bool DeviceHierarchy::Update(const std::vector<MultigridLevel>& levels, std::str
 bool DeviceHierarchy::TakeUnresolved(const std::vector<MultigridLevel>& levels,
   const std::vector<DeviceLevel>& views, std::string& whyNot)
 {
-  unresolved_.assign(levels.size(), {});
   double all = 0.0;
   double unresolved = 0.0;
   for (std::size_t l = 0; l + 1 < levels.size(); ++l)
   {
-    const std::vector<DeviceGroup>& groups = cycles_->Unresolved(static_cast<int>(l));
-    unresolved += double(groups.size());
+    unresolved += double(cycles_->Unresolved(static_cast<int>(l)).size());
     for (const DeviceGroups& set : views[l].groups)
     {
       all += double(set.count);
     }
+  }
+  if (unresolved > MostUnresolved * all)
+  {
+    whyNot = "flat faces need double precision";
+    return false;
+  }
+  unresolved_.assign(levels.size(), {});
+  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+  {
+    const std::vector<DeviceGroup>& groups = cycles_->Unresolved(static_cast<int>(l));
     if (groups.empty())
     {
       continue;
@@ -286,11 +281,6 @@ bool DeviceHierarchy::TakeUnresolved(const std::vector<MultigridLevel>& levels,
       unresolved_[l].push_back(
         RestOf(source, UnknownGroup(set.unknown + own.group * set.size, set.size)));
     }
-  }
-  if (unresolved > MostUnresolved * all)
-  {
-    whyNot = "flat faces need double precision";
-    return false;
   }
   return true;
 }
@@ -315,10 +305,12 @@ bool DeviceHierarchy::Precondition(
     sizeof(Real) == sizeof(float) ? DeviceNumbers::Single : DeviceNumbers::Double;
   try
   {
-    auto* const room = static_cast<Real*>(cycles_->Room(l, columns, numbers));
-    CopyNumbers(b.data(), b, room, threads_);
+    const Eigen::Map<Vectors<Real>> room(
+      static_cast<Real*>(cycles_->Room(l, columns, numbers)), b.rows(), columns);
+    const int threads = ThreadsFor(b.size(), threads_);
+    CopyBlock(b, room, threads);
     cycles_->Precondition(l, columns, numbers);
-    CopyNumbers(room, b, x.data(), threads_);
+    CopyBlock(room, Eigen::Map<Vectors<Real>>(x.data(), b.rows(), columns), threads);
     if (isMeasured)
     {
       AddSolutions(unresolved_[level], b, x);

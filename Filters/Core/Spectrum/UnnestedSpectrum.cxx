@@ -80,20 +80,19 @@ void RemoveConstants(
 
 /// One cycle, and a cycle with factors in double precision as its fallback. The latter is made
 /// once.
-/// @param where  receives the device of the cycles, at once and when the fallback is made
+/// @param isDouble  becomes true when the fallback is made
 WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(
-  const Multigrid& multigrid, std::string& where)
+  const Multigrid& multigrid, bool& isDouble)
 {
-  where = multigrid.Where();
   WithFallback<BlockPreconditioner<double>> B{ CyclePreconditioner<double>(multigrid, 0), {} };
   if (multigrid.HasSingleFactors())
   {
-    B.makeDouble = [&multigrid, &where, inDouble = std::shared_ptr<const Multigrid>()]() mutable
+    B.makeDouble = [&multigrid, &isDouble, inDouble = std::shared_ptr<const Multigrid>()]() mutable
     {
       if (!inDouble)
       {
         inDouble = std::make_shared<const Multigrid>(multigrid.InDoublePrecision());
-        where = multigrid.OnDevice() ? "CPU: the modes need double precision" : where;
+        isDouble = true;
       }
       return CyclePreconditioner<double>(*inDouble, 0);
     };
@@ -192,7 +191,8 @@ Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const Spectru
   {
     problem.shift = LowestValue(start);
     const Multigrid multigrid = BuildMultigrid(space, problem.shift / unit, 1.0, options.multigrid);
-    problem.preconditioner = BlockCycleWithFallback(multigrid, where);
+    bool isDouble = false;
+    problem.preconditioner = BlockCycleWithFallback(multigrid, isDouble);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());
@@ -203,7 +203,8 @@ Spectrum ImproveSpectrum(const SpaceLevels& space, Spectrum start, const Spectru
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
     matched = MatchStart(problem, pairs, prolongation, start);
-    where = where.rfind("GPU", 0) == 0 ? multigrid.Where() : where; // it may have failed
+    where =
+      isDouble && multigrid.OnDevice() ? "CPU: the modes need double precision" : multigrid.Where();
   }
   Spectrum spectrum =
     CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem, matched);

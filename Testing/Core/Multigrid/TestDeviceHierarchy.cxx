@@ -1,5 +1,6 @@
 // Cycles on a device, on its twin for the threads of the host, which has the same source. The
 // environment variable GRIDFEM_DEVICE_LIBRARY names another device, such as a GPU.
+#include "ApplyRows.h"
 #include "Dense.h"
 #include "Discretization.h"
 #include "Hybrid.h"
@@ -295,13 +296,8 @@ TEST_F(DeviceTest, BlocksInSinglePrecisionAreCorrectedToo)
   EXPECT_TRUE(single.IsReliable());
   const MultiVector r = RandomValues(single.Matrix().rows, 7);
   const MultiVector expected = Corrected(OnDevice(on), r);
-  MultiVector z(r.rows(), r.cols());
-  const RowSource<double> source{ r.rows(), r.cols(),
-    [&r](Id begin, Id end, Block<double> part) { part = r.middleRows(begin, end - begin); } };
-  const ResidualMeasures measures = CyclePreconditioner<double>(single, 0)(
-    source, [](const ResidualMeasures&) { return true; },
-    [&z](Id begin, Id end, const ConstBlock<double>& part)
-    { z.middleRows(begin, end - begin) = part; });
+  MultiVector z;
+  const ResidualMeasures measures = Apply(CyclePreconditioner<double>(single, 0), r, z);
   EXPECT_LT((z - expected).norm(), 1e-5 * expected.norm());
   const Eigen::VectorXd energy = r.cwiseProduct(expected).colwise().sum();
   EXPECT_LT((measures.energy - energy).norm(), 1e-5 * energy.norm());
@@ -426,13 +422,8 @@ TEST_F(DeviceTest, TheCpuGoesOnInSinglePrecision)
   const auto applied = [](const BasicMultigrid<float>& multigrid)
   {
     const Vectors<float> r = RandomValues(multigrid.Matrix().rows, 3).cast<float>();
-    Vectors<float> z(r.rows(), r.cols());
-    const RowSource<float> source{ r.rows(), r.cols(),
-      [&r](Id begin, Id end, Block<float> part) { part = r.middleRows(begin, end - begin); } };
-    CyclePreconditioner<float>(multigrid, 0)(
-      source, [](const ResidualMeasures&) { return true; },
-      [&z](Id begin, Id end, const ConstBlock<float>& part)
-      { z.middleRows(begin, end - begin) = part; });
+    Vectors<float> z;
+    Apply(CyclePreconditioner<float>(multigrid, 0), r, z);
     return z;
   };
   const auto without = applied({ levels(), On(DeviceChoice::Cpu) });

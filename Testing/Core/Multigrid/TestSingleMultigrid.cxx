@@ -1,6 +1,7 @@
 // Hierarchies in single precision against hierarchies in double precision, and the choice between
 // the two.
 #include "Algebra/BlockVectors.h"
+#include "ApplyRows.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Discretization.h"
@@ -20,6 +21,7 @@ namespace
 {
 
 using namespace gridfem::testing;
+using gridfem::testing::Apply; // beside the overload below
 
 constexpr double Shift = 0.01;
 
@@ -62,20 +64,6 @@ std::vector<MultigridOptions> OtherCycles()
   all[1].preSweeps = all[1].postSweeps = 2;
   all[2].preSweeps = all[2].postSweeps = 0;
   return all;
-}
-
-/// Applies the preconditioner to a stored block.
-template<class Real>
-ResidualMeasures Apply(
-  const BlockPreconditioner<Real>& precondition, const Vectors<Real>& r, Vectors<Real>& z)
-{
-  z.resize(r.rows(), r.cols());
-  const RowSource<Real> source{ r.rows(), r.cols(),
-    [&r](Id begin, Id end, Block<Real> part) { part = r.middleRows(begin, end - begin); } };
-  return precondition(
-    source, [](const ResidualMeasures&) { return true; },
-    [&z](Id begin, Id end, const ConstBlock<Real>& part)
-    { z.middleRows(begin, end - begin) = part; });
 }
 
 template<class Real>
