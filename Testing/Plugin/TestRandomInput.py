@@ -15,7 +15,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_DOUBLE, VTK_FLOAT, VTK_STRING
 from vtkmodules.vtkCommonCore import (
-    vtkBitArray, vtkIdTypeArray, vtkOutputWindow, vtkPoints, vtkStringArray, vtkVariantArray)
+    vtkBitArray, vtkIdTypeArray, vtkOutputWindow, vtkPoints, vtkStringArray, vtkUnsignedCharArray,
+    vtkVariantArray)
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet,
     vtkPartitionedDataSetCollection, vtkPolyData, vtkSelection, vtkSelectionNode)
@@ -332,7 +333,7 @@ class Listener:
 def on_surface(data):
     """Returns the points of polygons with an area. Results may be NaN at the others."""
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
-    ghosts = data.GetCellData().GetArray("vtkGhostType")
+    ghosts = vtkUnsignedCharArray.SafeDownCast(data.GetCellData().GetAbstractArray("vtkGhostType"))
     used = numpy.zeros(len(points), bool)
     for cell in range(data.GetNumberOfCells()):
         if data.GetCell(cell).GetCellDimension() < 2 or (ghosts and ghosts.GetTuple1(cell)):

@@ -283,6 +283,41 @@ TEST(HarmonicInterpolationFilter, WarnsOfValuesFarFromTheSurface)
     "The farthest is point 2, at 499");
 }
 
+TEST(HarmonicInterpolationFilter, FindsTheNearestPointOfAnyFinitePlace)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  const Vec3 axes[3] = { Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ() };
+  for (const double far : { 1e3, 1e18, 1e100, 1e154, 1e300 })
+  {
+    TriangleMesh places;
+    for (const Vec3& axis : axes)
+    {
+      places.points.push_back(far * axis);
+    }
+    const auto values = ToPolyData(places);
+    AddPointArray(values, "Value", 1, [](const Vec3& p, int) { return p[0] - p[1] > 0.0 ? 1.0 : 2.0; });
+    const auto filter = Interpolate(sphere, "None");
+    filter->SetInputData(2, values);
+    filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+    Messages messages(filter);
+    filter->Update();
+    ExpectOne(messages.warnings, "Values: 3 of its 3 points are farther than");
+    EXPECT_LT(FieldValue(filter->GetOutput(), "Misfit"), 1e-5) << far;
+    auto* interpolated = filter->GetOutput()->GetPointData()->GetScalars();
+    for (vtkIdType point = 0; point < sphere->GetNumberOfPoints(); ++point)
+    {
+      const Vec3 at(sphere->GetPoint(point));
+      for (const Vec3& axis : axes)
+      {
+        if ((at - axis).norm() < 1e-6)
+        {
+          EXPECT_NEAR(interpolated->GetTuple1(point), axis[2] > 0.0 ? 2.0 : 1.0, 1e-5) << far;
+        }
+      }
+    }
+  }
+}
+
 TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)
 {
   const auto sphere = ToPolyData(GeodesicSphere(12));

@@ -49,7 +49,8 @@ double LongestEdge(const TriangleMesh& mesh)
   return std::sqrt(square);
 }
 
-/// Finds the nearest of the points that triangles use.
+/// Finds the nearest of the points that triangles use. The locator finds nothing at places of huge
+/// coordinates. So it works in units of the surface, with far places moved nearer.
 class UsedPointFinder
 {
 public:
@@ -57,38 +58,58 @@ public:
   {
     constexpr double FarShare = 0.05; // of the longest side
     const std::vector<char> used = UsedPoints(mesh);
+    Eigen::AlignedBox3d box;
     for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
     {
       if (used[point])
       {
         idOf_.push_back(point);
+        box.extend(mesh.points[point]);
       }
     }
+    const double side = box.sizes().maxCoeff();
+    center_ = box.center();
+    unit_ = side > 0.0 ? side : 1.0;
+    far_ = std::max(FarShare * side, LongestEdge(mesh));
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     SetTuples(points->GetData(), static_cast<vtkIdType>(idOf_.size()));
     for (std::size_t k = 0; k < idOf_.size(); ++k)
     {
-      points->SetPoint(static_cast<vtkIdType>(k), mesh.points[idOf_[k]].data());
+      points->SetPoint(static_cast<vtkIdType>(k), this->InUnits(mesh.points[idOf_[k]]).data());
     }
     candidates_->SetPoints(points);
     locator_->SetDataSet(candidates_);
     locator_->BuildLocator();
-    double box[6];
-    candidates_->GetBounds(box);
-    const double side = std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] });
-    far_ = std::max(FarShare * side, LongestEdge(mesh));
   }
 
-  Id NearestTo(const Vec3& place) const { return idOf_[locator_->FindClosestPoint(place.data())]; }
+  Id NearestTo(const Vec3& place) const
+  {
+    return idOf_[locator_->FindClosestPoint(this->InUnits(place).data())];
+  }
 
-  double Between(const Vec3& place, Id point) const { return (mesh_.points[point] - place).norm(); }
+  double Between(const Vec3& place, Id point) const
+  {
+    return (mesh_.points[point] - place).stableNorm();
+  }
   double Between(Id point, Id other) const { return this->Between(mesh_.points[point], other); }
   double Far() const { return far_; }
 
 private:
+  /// Beyond the farthest distance, only the direction decides about the nearest point.
+  Vec3 InUnits(const Vec3& place) const
+  {
+    constexpr double Farthest = 1e6;
+    const Vec3 half = 0.5 * place - 0.5 * center_; // the whole may overflow
+    const double length = half.stableNorm();
+    return length > 0.0 ? Vec3(half / length * std::min(2.0 * (length / unit_), Farthest))
+                        : Vec3(Vec3::Zero());
+  }
+
   const TriangleMesh& mesh_;
   std::vector<Id> idOf_;
+  Vec3 center_ = Vec3::Zero();
+  double unit_ = 1.0; // the longest side of the surface
   double far_ = 0.0;
   vtkNew<vtkPolyData> candidates_;
   vtkNew<vtkStaticPointLocator> locator_;
