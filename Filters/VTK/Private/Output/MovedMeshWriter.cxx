@@ -29,7 +29,8 @@ vtkSmartPointer<vtkDataArray> MovedNormals(
   const TriangleMesh& mesh, const std::vector<Vec3>& points, int threads, vtkPolyData* data)
 {
   vtkDataArray* given = data->GetPointData()->GetNormals();
-  if (!given)
+  // VTK keeps normals active if an array of their name with other components replaces them.
+  if (!given || given->GetNumberOfComponents() != 3)
   {
     return nullptr;
   }
