@@ -36,7 +36,7 @@ Build()
 # Usage: Run FOLDER MESHES
 Run()
 {
-  export GRIDFEM_DEVICE_LIBRARY="$1/lib/libgridfem_cuda.so"
+  export GRIDFEM_DEVICE_LIBRARY="$1/lib/libgridfem_cuda.so" GRIDFEM_DATA_DIR="$2"
   nvidia-smi --query-gpu=name,driver_version --format=csv,noheader
   "$1/bin/TestDeviceHierarchy" --gtest_brief=1
   if command -v compute-sanitizer > /dev/null; then

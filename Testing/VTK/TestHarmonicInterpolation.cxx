@@ -295,7 +295,8 @@ TEST(HarmonicInterpolationFilter, FindsTheNearestPointOfAnyFinitePlace)
       places.points.push_back(far * axis);
     }
     const auto values = ToPolyData(places);
-    AddPointArray(values, "Value", 1, [](const Vec3& p, int) { return p[0] - p[1] > 0.0 ? 1.0 : 2.0; });
+    AddPointArray(
+      values, "Value", 1, [](const Vec3& p, int) { return p[0] - p[1] > 0.0 ? 1.0 : 2.0; });
     const auto filter = Interpolate(sphere, "None");
     filter->SetInputData(2, values);
     filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");

@@ -172,8 +172,7 @@ GroupFactor RestOf(const BlockSource& source, UnknownGroup group)
 }
 
 /// x += Σ R_pᵀ Vᵀ V R_p b over some groups p of unknowns.
-template<class Real>
-void AddSolutions(const std::vector<GroupFactor>& groups, const Vectors<Real>& b, Vectors<Real>& x)
+void AddSolutions(const std::vector<GroupFactor>& groups, const MultiVector& b, MultiVector& x)
 {
   for (const GroupFactor& group : groups)
   {
@@ -181,12 +180,12 @@ void AddSolutions(const std::vector<GroupFactor>& groups, const Vectors<Real>& b
     Eigen::MatrixXd part(size, b.cols());
     for (Id i = 0; i < size; ++i)
     {
-      part.row(i) = b.row(group.unknown[i]).template cast<double>();
+      part.row(i) = b.row(group.unknown[i]);
     }
     part = group.V.transpose() * (group.V * part).eval();
     for (Id i = 0; i < size; ++i)
     {
-      x.row(group.unknown[i]) += part.row(i).template cast<Real>();
+      x.row(group.unknown[i]) += part.row(i);
     }
   }
 }
@@ -311,9 +310,12 @@ bool DeviceHierarchy::Precondition(
     CopyBlock(b, room, threads);
     cycles_->Precondition(l, columns, numbers);
     CopyBlock(room, Eigen::Map<Vectors<Real>>(x.data(), b.rows(), columns), threads);
-    if (isMeasured)
+    if constexpr (!PrecisionTraits<Real>::IsSingle)
     {
-      AddSolutions(unresolved_[level], b, x);
+      if (isMeasured)
+      {
+        AddSolutions(unresolved_[level], b, x);
+      }
     }
     return true;
   }

@@ -36,7 +36,7 @@ public:
   /// number of columns. Returns false if the device fails; it is not used any more then.
   /// @param isMeasured  adds solutions of groups that the device leaves out in part, so that rᵀBr
   ///   contains their directions. B A then has eigenvalues above 2, so that x += B (b - A x) may
-  ///   grow.
+  ///   grow. Blocks in single precision get none: their rounding would become large corrections.
   template<class Real>
   bool Precondition(
     std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool isMeasured) const;

@@ -7,6 +7,7 @@
 #include "Krylov/PrecisionFallback.h"
 #include "Meshes.h"
 #include "SampledHierarchy.h"
+#include "Spectrum/Spectrum.h"
 
 #include <gtest/gtest.h>
 
@@ -346,6 +347,53 @@ TEST_F(DeviceTest, FewUnresolvedGroupsAreSolvedInDoublePrecision)
   const double seen = residual.cwiseProduct(Corrected(multigrid, residual)).sum();
   EXPECT_GT(seen, 0.9 * energy);
   EXPECT_LT(seen, 1.1 * energy);
+}
+
+/// Rounding of a residual in single precision must not become a large correction.
+TEST_F(DeviceTest, SinglePrecisionLeavesUnresolvedDirectionsOut)
+{
+  std::vector<MultigridLevel> levels = SeparateGroups(8, 300);
+  Eigen::MatrixXd A = Dense(levels[0].A);
+  A.row(8 * 17 + 1) = A.row(8 * 17);
+  A.col(8 * 17 + 1) = A.col(8 * 17);
+  A(8 * 17 + 1, 8 * 17 + 1) += 1e-10;
+  levels[0].A = Sparse(A);
+  const BasicMultigrid<float> single(std::move(levels), On(DeviceChoice::Gpu));
+  ASSERT_NE(single.OnDevice(), nullptr);
+  const MultiVector residual = RandomValues(A.rows(), 1);
+  MultiVector z;
+  Apply(CyclePreconditioner<double>(single, 0), residual, z);
+  EXPECT_LT(z.cwiseAbs().maxCoeff(), 1e3);
+}
+
+/// A scan has groups with unresolved directions.
+TEST_F(DeviceTest, ModesOfAScanNeedNoDoublePrecision)
+{
+  const std::string path = RealMesh("dragon_871k.ply");
+  if (path.empty())
+  {
+    GTEST_SKIP() << "no real meshes";
+  }
+  const Discretization on = Discretize(ReadMesh(path), 5);
+  const auto modesOn = [&](DeviceChoice device)
+  {
+    SpectrumOptions options;
+    options.numberOfModes = 20;
+    options.tolerance = 1e-6;
+    options.multigrid.device = device;
+    return ComputeSpectrum(ViewOf(on.space, on.system), options);
+  };
+  const Spectrum onCpu = modesOn(DeviceChoice::Cpu);
+  const Spectrum onGpu = modesOn(DeviceChoice::Gpu);
+  EXPECT_EQ(onGpu.where.substr(0, 4), "GPU:");
+  EXPECT_TRUE(onCpu.singlePrecision);
+  EXPECT_TRUE(onGpu.singlePrecision);
+  EXPECT_LE(onGpu.iterations, onCpu.iterations + 2);
+  ASSERT_EQ(onGpu.eigenvalues.size(), onCpu.eigenvalues.size());
+  for (std::size_t k = 1; k < onCpu.eigenvalues.size(); ++k)
+  {
+    EXPECT_NEAR(onGpu.eigenvalues[k] / onCpu.eigenvalues[k], 1.0, 2e-6) << k;
+  }
 }
 
 /// A device that fails after some cycles.
