@@ -283,6 +283,19 @@ TEST(HarmonicInterpolationFilter, WarnsOfValuesFarFromTheSurface)
     "The farthest is point 2, at 499");
 }
 
+TEST(HarmonicInterpolationFilter, RefusesScalarsOfAnotherLengthThanThePlaces)
+{
+  TriangleMesh places;
+  places.points = { Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ() };
+  const auto values = ToPolyData(places);
+  AddPointArray(values, "Height", 1, [](const Vec3& p, int) { return p[2]; });
+  values->GetPointData()->SetActiveScalars("Height");
+  values->GetPointData()->GetScalars()->SetNumberOfTuples(2);
+  const auto filter = Interpolate(ToPolyData(GeodesicSphere(8)), "None");
+  filter->SetInputData(2, values);
+  ExpectRefused(filter, "In the input Values, the Value Array 'Height' has 2 values", "3 points");
+}
+
 TEST(HarmonicInterpolationFilter, FindsTheNearestPointOfAnyFinitePlace)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

@@ -179,6 +179,30 @@ TEST_P(MeanCurvatureFlowFilter, ArraysBelongToTheMovedSurface)
   }
 }
 
+/// VTK keeps an array active as normals if it replaces normals under their name.
+TEST_P(MeanCurvatureFlowFilter, ActiveNormalsOfAnotherShapeAreNoNormals)
+{
+  for (const bool isShort : { false, true })
+  {
+    auto surface = this->Surface(VTK_DOUBLE);
+    for (const bool isReplaced : { false, true })
+    {
+      vtkNew<vtkDoubleArray> array;
+      array->SetName("Normals");
+      array->SetNumberOfComponents(isReplaced && !isShort ? 6 : 3);
+      array->SetNumberOfTuples(isReplaced && isShort ? 2 : surface->GetNumberOfPoints());
+      array->Fill(0.5);
+      isReplaced ? surface->GetPointData()->AddArray(array)
+                 : surface->GetPointData()->SetNormals(array);
+    }
+    ASSERT_NE(surface->GetPointData()->GetNormals(), nullptr);
+    filter->SetInputData(surface);
+    filter->Update();
+    EXPECT_TRUE(messages.errors.empty());
+    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetNormals(), nullptr);
+  }
+}
+
 TEST_P(MeanCurvatureFlowFilter, ABasisIsTakenAndDoesNotComeOut)
 {
   const auto alone = this->PointsAt(5);

@@ -146,6 +146,7 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
   {
     array.array = scalars;
     array.name = scalars->GetName() ? scalars->GetName() : "";
+    RequireTuples(array, places, "In the input " + input + ", the " + property);
   }
   RequirePointArray(
     array, property, "The input " + input + " has no active scalars to use instead.");

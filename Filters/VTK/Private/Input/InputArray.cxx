@@ -92,14 +92,7 @@ void RequireFound(
   {
     throw InvalidInput(subject + " is not numeric.");
   }
-  const bool onPoints = result.association == FieldAssociation::Points;
-  const vtkIdType expected = TuplesOf(input, onPoints);
-  if (found->GetNumberOfTuples() != expected)
-  {
-    throw InvalidInput(subject + " has " + std::to_string(found->GetNumberOfTuples()) +
-                       " values, but the mesh has " + std::to_string(expected) +
-                       (onPoints ? " points." : " cells."));
-  }
+  RequireTuples(result, input, property);
 }
 
 std::string NameOfTuple(const InputArray& input, vtkIdType tuple)
@@ -138,6 +131,19 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector&
 }
 
 } // namespace
+
+void RequireTuples(const InputArray& array, vtkDataSet* input, const std::string& property)
+{
+  const bool onPoints = array.association == FieldAssociation::Points;
+  const vtkIdType expected = TuplesOf(input, onPoints);
+  const vtkIdType found = array.array->GetNumberOfTuples();
+  if (found != expected)
+  {
+    throw InvalidInput(property + " '" + array.name + "' has " + std::to_string(found) +
+                       " values, but the mesh has " + std::to_string(expected) +
+                       (onPoints ? " points." : " cells."));
+  }
+}
 
 bool MeansNoArray(const std::string& name)
 {

@@ -29,8 +29,9 @@ vtkSmartPointer<vtkDataArray> MovedNormals(
   const TriangleMesh& mesh, const std::vector<Vec3>& points, int threads, vtkPolyData* data)
 {
   vtkDataArray* given = data->GetPointData()->GetNormals();
-  // VTK keeps normals active if an array of their name with other components replaces them.
-  if (!given || given->GetNumberOfComponents() != 3)
+  // VTK keeps normals active if an array of their name with another shape replaces them.
+  if (!given || given->GetNumberOfComponents() != 3 ||
+      given->GetNumberOfTuples() != static_cast<vtkIdType>(points.size()))
   {
     return nullptr;
   }
