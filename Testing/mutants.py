@@ -12,8 +12,8 @@ import sys
 # Name, file, line, replacement, and the test program that must fail.
 MUTANTS = (
     ("directions that a device leaves out are lost", "Filters/Core/Multigrid/DeviceHierarchy.cxx",
-     "      AddSolutions(unresolved_[level], b, x);",
-     "      (void)AddSolutions<Real>;",
+     "        AddSolutions(unresolved_[level], b, x);",
+     "        (void)AddSolutions;",
      "TestDeviceHierarchy"),
     ("a polynomial of another kind", "Filters/Device/Cycles.cxx",
      "    const float first = step == 1 ? 0.0f : (2.0f * k - 3.0f) / (2.0f * k + 1.0f);",

@@ -36,6 +36,10 @@ MANY_VALUES = 60.0
 NEVER_SET = {"Depth", "NumberOfModes", "NumberOfSteps", "NumberOfThreads", "MaximumIterations",
              "WantedError", "QuadratureDegree", "ErrorCode", "AbortExecute", "ReferenceCount",
              "Debug", "ReleaseDataFlag", "Progress", "NumberOfScales"}
+NEVER_SET_OF = {
+    "vtkLaplaceSpectrum": {"Accuracy"},  # it chooses the depth
+    "vtkSurfaceDynamics": {"TimeStep"},  # a long one takes thousands of steps of the solver
+}
 # The active scalars of the filters, without arrays that have NaN where nothing reaches.
 MADE = {"Solution", "NormalDisplacement", "Filtered", "Mode", "Mode000", "Diffused", "Laplacian", "Bending",
         "Signature", "StitchedColors"}
@@ -286,11 +290,7 @@ def further_input(choice, algorithm, port, data):
 def set_at_random(choice, algorithm):
     """Sets properties. Returns the values, for the report."""
     told = []
-    never = set(NEVER_SET)
-    if algorithm.IsA("vtkLaplaceSpectrum"):
-        never.add("Accuracy")  # it chooses the depth
-    if algorithm.IsA("vtkSurfaceDynamics"):
-        never.add("TimeStep")  # a long one takes thousands of steps of the solver
+    never = NEVER_SET | NEVER_SET_OF.get(algorithm.GetClassName(), set())
     algorithm.SetDepth(choice.choice((2, 3, 4)))
     for limit, value in (("NumberOfModes", 6), ("NumberOfSteps", 2)):
         if hasattr(algorithm, "Set" + limit):

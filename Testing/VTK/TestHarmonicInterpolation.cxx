@@ -30,6 +30,16 @@ vtkSmartPointer<vtkHarmonicInterpolation> Interpolate(vtkPolyData* data, const c
   return filter;
 }
 
+/// Interpolates an array of places in space.
+vtkSmartPointer<vtkHarmonicInterpolation> InterpolateFrom(
+  vtkPolyData* places, const char* values, vtkPolyData* surface)
+{
+  auto filter = Interpolate(surface, "None");
+  filter->SetInputData(2, places);
+  filter->SetInputArrayToProcess(2, 2, 0, Points, values);
+  return filter;
+}
+
 /// A ring between the radii 1 and e, flat but turned.
 vtkSmartPointer<vtkPolyData> Ring(int around, int across)
 {
@@ -207,9 +217,7 @@ TEST_P(HarmonicInterpolation, TakesPointsOfAnotherDataSet)
   }
   places->SetPoints(points);
   places->GetPointData()->AddArray(color);
-  const auto by_place = Interpolate(sphere, "None");
-  by_place->SetInputData(2, places);
-  by_place->SetInputArrayToProcess(2, 2, 0, Points, "Color");
+  const auto by_place = InterpolateFrom(places, "Color", sphere);
   by_place->SetFunctionSpace(this->GetParam());
   by_place->Update();
   EXPECT_LT(Difference(PointValues(by_place->GetOutput(), "Interpolated"),
@@ -255,9 +263,7 @@ TEST(HarmonicInterpolationFilter, SaysWhereValuesContradictEachOther)
   auto* value = AddPointArray(places, "Value", 1, [](const Vec3&, int) { return 0.0; });
   value->SetValue(0, 1.0);
   value->SetValue(1, 3.0);
-  const auto filter = Interpolate(sphere, "None");
-  filter->SetInputData(2, places);
-  filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+  const auto filter = InterpolateFrom(places, "Value", sphere);
   Messages messages(filter);
   filter->Update();
   ExpectOne(messages.warnings, "contradict");
@@ -274,9 +280,7 @@ TEST(HarmonicInterpolationFilter, WarnsOfValuesFarFromTheSurface)
   }
   places->SetPoints(points);
   AddPointArray(places, "Value", 1, [](const Vec3&, int) { return 2.0; });
-  const auto filter = Interpolate(ToPolyData(GeodesicSphere(8)), "None");
-  filter->SetInputData(2, places);
-  filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+  const auto filter = InterpolateFrom(places, "Value", ToPolyData(GeodesicSphere(8)));
   Messages messages(filter);
   filter->Update();
   ExpectOne(messages.warnings, "Values: 1 of its 3 points is farther than",
@@ -310,9 +314,7 @@ TEST(HarmonicInterpolationFilter, FindsTheNearestPointOfAnyFinitePlace)
     const auto values = ToPolyData(places);
     AddPointArray(
       values, "Value", 1, [](const Vec3& p, int) { return p[0] - p[1] > 0.0 ? 1.0 : 2.0; });
-    const auto filter = Interpolate(sphere, "None");
-    filter->SetInputData(2, values);
-    filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+    const auto filter = InterpolateFrom(values, "Value", sphere);
     Messages messages(filter);
     filter->Update();
     ExpectOne(messages.warnings, "Values: 3 of its 3 points are farther than");

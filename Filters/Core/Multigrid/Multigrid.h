@@ -99,8 +99,8 @@ public:
   const DeviceHierarchy* OnDevice() const { return device_.get(); }
   /// Why no device cycles; empty if one does, or did until it failed.
   const std::string& WhyNotOnDevice() const { return whyNotOnDevice_; }
-  /// The device that cycles, and the reason if it is the CPU: "GPU: NVIDIA H100", "CPU: the problem
-  /// is small".
+  /// The device that cycles, and the reason if it is the CPU: "GPU: NVIDIA H100", "CPU: there are
+  /// few functions".
   std::string Where() const;
 
 private:

@@ -146,7 +146,8 @@ InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const 
   {
     array.array = scalars;
     array.name = scalars->GetName() ? scalars->GetName() : "";
-    RequireTuples(array, places, "In the input " + input + ", the " + property);
+    RequireLength(scalars, places->GetNumberOfPoints(),
+      "In the input " + input + ", the " + property + " '" + array.name + "'", "points");
   }
   RequirePointArray(
     array, property, "The input " + input + " has no active scalars to use instead.");

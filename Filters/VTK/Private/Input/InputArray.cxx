@@ -92,7 +92,8 @@ void RequireFound(
   {
     throw InvalidInput(subject + " is not numeric.");
   }
-  RequireTuples(result, input, property);
+  const bool onPoints = result.association == FieldAssociation::Points;
+  RequireLength(found, TuplesOf(input, onPoints), subject, onPoints ? "points" : "cells");
 }
 
 std::string NameOfTuple(const InputArray& input, vtkIdType tuple)
@@ -132,16 +133,13 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector&
 
 } // namespace
 
-void RequireTuples(const InputArray& array, vtkDataSet* input, const std::string& property)
+void RequireLength(
+  vtkAbstractArray* array, vtkIdType expected, const std::string& subject, const std::string& kind)
 {
-  const bool onPoints = array.association == FieldAssociation::Points;
-  const vtkIdType expected = TuplesOf(input, onPoints);
-  const vtkIdType found = array.array->GetNumberOfTuples();
-  if (found != expected)
+  if (array->GetNumberOfTuples() != expected)
   {
-    throw InvalidInput(property + " '" + array.name + "' has " + std::to_string(found) +
-                       " values, but the mesh has " + std::to_string(expected) +
-                       (onPoints ? " points." : " cells."));
+    throw InvalidInput(subject + " has " + std::to_string(array->GetNumberOfTuples()) +
+                       " values, but the mesh has " + std::to_string(expected) + " " + kind + ".");
   }
 }
 

@@ -62,8 +62,11 @@ bool HasArray(vtkDataSet* data, const std::string& name);
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
 
-/// Throws InvalidInput if an array does not have a tuple for each point or cell of the input.
-void RequireTuples(const InputArray& array, vtkDataSet* input, const std::string& property);
+/// Throws InvalidInput unless an array has a tuple for each point or cell of the mesh.
+/// @param subject  the array, in the message
+/// @param kind     "points" or "cells"
+void RequireLength(
+  vtkAbstractArray* array, vtkIdType expected, const std::string& subject, const std::string& kind);
 
 /// Returns the only array that can be chosen without being named. It is a point or cell array with
 /// a number for each point or cell, and `fits`, called with its attributes, is true. Null array if

@@ -58,17 +58,16 @@ public:
   {
     constexpr double FarShare = 0.05; // of the longest side
     const std::vector<char> used = UsedPoints(mesh);
-    Eigen::AlignedBox3d box;
     for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
     {
       if (used[point])
       {
         idOf_.push_back(point);
-        box.extend(mesh.points[point]);
       }
     }
-    const double side = box.sizes().maxCoeff();
-    center_ = box.center();
+    const Bounds bounds = BoundsOf(mesh.points, used);
+    const double side = (bounds.high - bounds.low).maxCoeff();
+    center_ = 0.5 * bounds.low + 0.5 * bounds.high;
     unit_ = side > 0.0 ? side : 1.0;
     far_ = std::max(FarShare * side, LongestEdge(mesh));
     vtkNew<vtkPoints> points;

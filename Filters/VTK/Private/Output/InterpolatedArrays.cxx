@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Input/InputArray.h"
 #include "Output/ClippedArrays.h"
 #include "Pipeline/Allocation.h"
 
@@ -110,13 +111,8 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
 
 void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind)
 {
-  if (array->GetNumberOfTuples() != expected)
-  {
-    const char* name = array->GetName();
-    throw InvalidInput("Array '" + std::string(name ? name : "(no name)") + "' has " +
-                       std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
-                       std::to_string(expected) + " " + kind + ".");
-  }
+  const char* name = array->GetName();
+  RequireLength(array, expected, "Array '" + std::string(name ? name : "(no name)") + "'", kind);
 }
 
 bool BelongsToItsPlaces(vtkAbstractArray* array, vtkDataSetAttributes* attributes)
