@@ -92,8 +92,10 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   {
     array = this->Data->Arrays.Join(this, surface,
       gridfem::FindArrayOfPlaces(this, places, "Values", "Value Array"), "Value Array",
-      [this, places](int index, const std::string& property) {
-        return gridfem::FindInputArray(this, index, places, "In the input Values, the " + property);
+      [this, places](int index, const std::string& property)
+      {
+        return gridfem::FindArrayAmongPlaces(
+          this, index, places, "In the input Values, the " + property);
       });
     values.find = [this, array, places, &surface] {
       return gridfem::ValuesOfPlaces(

@@ -300,6 +300,35 @@ TEST(HarmonicInterpolationFilter, RefusesScalarsOfAnotherLengthThanThePlaces)
   ExpectRefused(filter, "In the input Values, the Value Array 'Height' has 2 values", "3 points");
 }
 
+/// Places have more colors than the surface has points, so a color would be found for each point.
+TEST(HarmonicInterpolationFilter, LeavesColorsOfPlacesBlackWhereNoneArrives)
+{
+  const TriangleMesh one = GeodesicSphere(4);
+  const auto data = ToPolyData(Join(one, Transform(one, { 1, 0, 0 }, 0.0, 1.0, { 50.0, 0, 0 })));
+  const auto places = ToPolyData(GeodesicSphere(12));
+  for (const char* name : { "Color", "Other" })
+  {
+    vtkNew<vtkUnsignedCharArray> color;
+    color->SetName(name);
+    color->SetNumberOfComponents(3);
+    color->SetNumberOfTuples(places->GetNumberOfPoints());
+    color->Fill(200);
+    places->GetPointData()->AddArray(color);
+  }
+  const auto filter = InterpolateFrom(places, "Color", data);
+  filter->AddFurtherArray("Other");
+  filter->Update();
+  for (const char* name : { "Interpolated", "Other_Interpolated" })
+  {
+    const auto found = PointValues(filter->GetOutput(), name);
+    ASSERT_EQ(found.size(), 6 * one.points.size());
+    for (std::size_t k = 0; k < found.size(); ++k)
+    {
+      ASSERT_EQ(found[k], k < 3 * one.points.size() ? 200 : 0) << name << k;
+    }
+  }
+}
+
 TEST(HarmonicInterpolationFilter, FindsTheNearestPointOfAnyFinitePlace)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

@@ -133,13 +133,29 @@ PointValues KnownValues(const InputArray& array, const InputArray& mask,
   return given;
 }
 
+InputArray FindArrayAmongPlaces(
+  vtkAlgorithm* algorithm, int index, vtkDataSet* places, const std::string& property)
+{
+  try
+  {
+    InputArray array = FindInputArray(algorithm, index, places, property);
+    array.isOfSurface = false;
+    return array;
+  }
+  catch (const MissingArray& error)
+  {
+    throw InvalidInput(error.what());
+  }
+}
+
 InputArray FindArrayOfPlaces(vtkAlgorithm* algorithm, vtkDataSet* places, const std::string& input,
   const std::string& property)
 {
-  InputArray array = FindInputArray(algorithm, 2, places, "SourceArray");
+  InputArray array = FindArrayAmongPlaces(algorithm, 2, places, "SourceArray");
   if (!array.array)
   {
-    array = FindInputArray(algorithm, 0, places, "In the input " + input + ", the " + property);
+    array =
+      FindArrayAmongPlaces(algorithm, 0, places, "In the input " + input + ", the " + property);
   }
   vtkDataArray* scalars = places->GetPointData()->GetScalars();
   if (!array.array && scalars)

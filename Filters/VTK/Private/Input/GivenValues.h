@@ -40,6 +40,12 @@ PointValues TypedValues(
 /// Throws InvalidInput if no value is known.
 void RequireKnown(bool isAnyKnown, const InputArray& array);
 
+/// Returns the array that SetInputArrayToProcess(index, ...) names among the arrays of places. Null
+/// array if none is chosen. Throws InvalidInput as FindInputArray does, also if there is no such
+/// array. MissingArray would ask whether another block of the surface has it.
+InputArray FindArrayAmongPlaces(
+  vtkAlgorithm* algorithm, int index, vtkDataSet* places, const std::string& property);
+
 /// Returns the point array that index 2 chooses for a data set of places with values, or else its
 /// array with the name that index 0 chooses, or else its active scalars. Throws InvalidInput if
 /// there is none.

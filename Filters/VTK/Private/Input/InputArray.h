@@ -30,6 +30,7 @@ struct InputArray
   /// Components of each array that it is joined from; empty: it is one array.
   std::vector<int> parts{};
 };
+  bool isOfSurface = true; // false: of places of their own, so ids of the surface name no tuples
 
 /// Thrown if the input lacks the chosen array.
 struct MissingArray : InvalidInput

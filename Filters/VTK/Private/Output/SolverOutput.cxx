@@ -118,7 +118,7 @@ bool AreColors(const MultiVector& values, int dataType)
 vtkSmartPointer<vtkDataArray> MakeColors(
   const char* name, MultiVector values, const InputArray& given)
 {
-  if (given.association == FieldAssociation::Points)
+  if (given.association == FieldAssociation::Points && given.isOfSurface)
   {
     KeepUnsolved(given.array, values);
   }
