@@ -214,6 +214,27 @@ TEST(FurtherArrays, NeedAFirstOne)
   ExpectRefused(filter, "Choose the Array, too.");
 }
 
+TEST(FurtherArrays, MayBeActiveAttributes)
+{
+  auto surface = MakeSurface(true);
+  surface->GetPointData()->SetActiveScalars("large");
+  auto filter = Make<vtkHeatDiffusion>(surface, "small");
+  filter->SetInputArrayToProcess(10, 0, 0, Points, vtkDataSetAttributes::SCALARS);
+  filter->Update();
+  ExpectAsAlone<vtkHeatDiffusion>(filter, surface, "large", "large_Diffused", "Diffused");
+}
+
+TEST(FurtherArrays, ThatAreNotChosenAreRefused)
+{
+  auto filter = Make<vtkHeatDiffusion>(MakeSurface(true), "small");
+  filter->SetInputArrayToProcess(11, 0, 0, Points, "large");
+  ExpectRefused(filter, "The Further Array 1 is not chosen");
+  filter->SetInputArrayToProcess(10, 0, 0, Points, "None");
+  ExpectRefused(filter, "The Further Array 1 is not chosen");
+  filter->SetInputArrayToProcess(10, 0, 0, Points, vtkDataSetAttributes::TENSORS);
+  ExpectRefused(filter, "the Further Array '' does not exist");
+}
+
 TEST(FurtherArrays, RunStagesAgainOnlyIfTheyChange)
 {
   auto surface = MakeSurface(true);

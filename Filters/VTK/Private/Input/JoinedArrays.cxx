@@ -77,7 +77,18 @@ InputArray JoinedArrays::Join(vtkAlgorithm* filter, const InputSurface& surface,
       onPoints ? vtkDataObject::FIELD_ASSOCIATION_POINTS : vtkDataObject::FIELD_ASSOCIATION_CELLS);
     InputArray array = find(
       index, onPoints ? "As point data, the Further Array" : "As cell data, the Further Array");
-    array.name = choice->Get(vtkDataObject::FIELD_NAME());
+    if (!array.array)
+    {
+      throw InvalidInput("The Further Array " + std::to_string(index - FirstFurther + 1) +
+                         " is not chosen, though SetInputArrayToProcess has its index or a later "
+                         "one.");
+    }
+    if (array.name.empty() && choice->Has(vtkDataObject::FIELD_NAME()))
+    {
+      // A rank without polygons has found no name.
+      array.name = choice->Get(vtkDataObject::FIELD_NAME());
+    }
+    array.isOfSurface = first.isOfSurface;
     parts_.push_back({ array, surface.DataTypeOf(index, array) });
   }
   InputArray all = first;
