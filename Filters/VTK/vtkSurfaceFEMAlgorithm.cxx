@@ -1,7 +1,6 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "Input/Domain.h"
-#include "Input/InputArray.h"
 #include "Input/InputBlocks.h"
 #include "Input/InputValidation.h"
 #include "Input/SelectedPoints.h"
@@ -55,13 +54,6 @@ std::string OutOfMemory(int depth)
            : "Out of memory at Depth " + std::to_string(depth) + ": choose a smaller Depth.";
 }
 
-/// Makes the input the first output. The other outputs are empty.
-void PassOn(vtkInformationVector* input, vtkInformationVector* outputs)
-{
-  EmptyOutputs(outputs);
-  vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(input));
-}
-
 /// Notes in the field data how many triangles count with another one. Collective.
 void NoteCopies(const gridfem::InputSurface& surface, vtkPolyData* output)
 {
@@ -84,39 +76,16 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Tables(std::make_unique<gridfem::BlockTables>())
 {
   // Ranks without a block would leave the others waiting. All ranks therefore get the same blocks.
-  vtkNew<vtkCallbackCommand> beginBlocks;
-  beginBlocks->SetClientData(this);
-  beginBlocks->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*)
-    {
-      auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
-      filter->Tables->PutBack(filter->GetExecutive()->GetOutputInformation());
-      filter->Blocks->Begin(
-        filter->GetExecutive()->GetInputInformation(), filter->GetNumberOfInputPorts());
-    });
-  this->AddObserver(vtkCommand::StartEvent, beginBlocks);
-
-  // A run may find other steps. For composite data, the pipeline also passes on the input's times
-  // once more after the last block.
-  vtkNew<vtkCallbackCommand> keepTimes;
-  keepTimes->SetClientData(this);
-  keepTimes->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*)
-    {
-      auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
-      filter->Blocks->End();
-      if (!filter->Blocks->Whole())
-      {
-        filter->Joined->Finish(filter->KeepsStages());
-        filter->Tables->Exchange(filter->GetExecutive()->GetOutputInformation());
-      }
-      const std::vector<double> steps = filter->TimeSteps();
-      if (!steps.empty())
-      {
-        gridfem::SetTimeSteps(steps, filter->GetExecutive()->GetOutputInformation());
-      }
-    });
-  this->AddObserver(vtkCommand::EndEvent, keepTimes);
+  vtkNew<vtkCallbackCommand> begin;
+  begin->SetClientData(this);
+  begin->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+    { static_cast<vtkSurfaceFEMAlgorithm*>(self)->BeginBlocks(); });
+  this->AddObserver(vtkCommand::StartEvent, begin);
+  vtkNew<vtkCallbackCommand> end;
+  end->SetClientData(this);
+  end->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+    { static_cast<vtkSurfaceFEMAlgorithm*>(self)->EndBlocks(); });
+  this->AddObserver(vtkCommand::EndEvent, end);
 }
 
 vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm()
@@ -223,7 +192,6 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   this->State->Read(nullptr, nullptr); // Compute sets it; the last input may be gone
 
   EmptyOutputs(outputs);
-  this->SetErrorCode(vtkErrorCode::NoError);
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
@@ -289,31 +257,6 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   this->SetErrorCode(vtkErrorCode::UnknownError);
   this->Dump->Silence(this->GetExecutive());
   return 0;
-}
-
-void vtkSurfaceFEMAlgorithm::ComputeAlone(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  vtkInformationVector** surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
-  try
-  {
-    this->ComputeSurface(surfaces, outputs);
-  }
-  catch (const gridfem::MissingArray& error)
-  {
-    if (!this->Blocks->AnyHas(error.array))
-    {
-      throw;
-    }
-    PassOn(surfaces[0], outputs);
-    vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
-  }
-  catch (const gridfem::MissingChoice& choice)
-  {
-    PassOn(surfaces[0], outputs);
-    vtkWarningMacro(<< choice.what() << " Until then the output is the input.");
-  }
-  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }
 
 /// Returns the blocks that the surface is joined from. Null if it is not joined.
@@ -416,6 +359,7 @@ void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
 
 vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(const char* stage)
 {
+  this->IsBlockAborted = true;
   return stage ? this->State->stages.Runs(stage) : 0;
 }
 

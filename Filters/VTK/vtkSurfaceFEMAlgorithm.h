@@ -10,7 +10,8 @@
  * Every filter fails by the same rule:
  * - An input without points gives empty outputs and no message.
  * - An unusable input gives one error message and empty outputs. RequestData returns 0, and the
- *   error code is vtkErrorCode::UnknownError. The pipeline prints no message of its own.
+ *   error code is vtkErrorCode::UnknownError, also if one block of several fails. The pipeline
+ *   prints no message of its own.
  * - If the user has not chosen something that the filter needs, the filter warns, and its output is
  *   the input. On several MPI ranks, and with BlocksAsOne, a missing choice is an error.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
@@ -419,6 +420,8 @@ private:
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeAlone(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeBlock(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void BeginBlocks();
+  void EndBlocks();
   void ComputeJoinedBlocks(vtkInformationVector** inputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeInside(vtkInformationVector** inputs, vtkInformationVector* outputs);
@@ -431,7 +434,8 @@ private:
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);
 
-  int SelectionPort = -1; // none
+  int SelectionPort = -1;      // none
+  bool IsBlockAborted = false; // in this execution
   std::unique_ptr<gridfem::SurfaceInput> Surface;
   std::unique_ptr<gridfem::Domain> Inside;
   std::unique_ptr<gridfem::InputTime> Time;

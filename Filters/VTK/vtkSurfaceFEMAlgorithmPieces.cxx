@@ -1,10 +1,12 @@
-// The runs of a filter whose surface consists of pieces: blocks of composite data, or the pieces of
-// MPI ranks.
+// The runs of a filter whose surface consists of pieces, or that has several surfaces: blocks of
+// composite data, or the pieces of MPI ranks.
 #include "vtkSurfaceFEMAlgorithm.h"
 
+#include "Input/InputArray.h"
 #include "Input/InputBlocks.h"
 #include "Input/InputValidation.h"
 #include "Input/SurfaceInput.h"
+#include "Output/BlockTables.h"
 #include "Output/SolverOutput.h"
 #include "Pieces/CanDistribute.h"
 #include "Pieces/GatheredOutput.h"
@@ -14,10 +16,108 @@
 #include "Pipeline/FilterState.h"
 #include "Pipeline/PipelineTime.h"
 
+#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkFieldData.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+namespace
+{
+
+/// Empties the data sets and tables of an output. The structure of composite data stays.
+/// @param output  may be null
+void EmptyLeaves(vtkDataObject* output)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(output);
+  if (!composite)
+  {
+    if (output)
+    {
+      output->Initialize();
+    }
+    return;
+  }
+  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    leaf->GetCurrentDataObject()->Initialize();
+  }
+}
+
+/// Makes the input the first output. The other outputs are empty.
+void PassOn(vtkInformationVector* input, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    EmptyLeaves(vtkDataObject::GetData(outputs, port));
+  }
+  vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(input));
+}
+
+} // namespace
+
+/// Prepares a run on all blocks. The pipeline also calls it for every block.
+void vtkSurfaceFEMAlgorithm::BeginBlocks()
+{
+  this->Tables->PutBack(this->GetExecutive()->GetOutputInformation());
+  vtkInformationVector** inputs = this->GetExecutive()->GetInputInformation();
+  if (this->Blocks->Begin(inputs, this->GetNumberOfInputPorts()))
+  {
+    this->SetErrorCode(vtkErrorCode::NoError);
+    this->IsBlockAborted = false;
+  }
+}
+
+/// Ends a run on all blocks. The pipeline also calls it for every block. A run may find other time
+/// steps. For composite data, the pipeline passes on the input's times once more after the last
+/// block.
+void vtkSurfaceFEMAlgorithm::EndBlocks()
+{
+  vtkInformationVector* outputs = this->GetExecutive()->GetOutputInformation();
+  if (this->Blocks->End())
+  {
+    this->Joined->Finish(this->KeepsStages());
+    for (int port = 0; this->IsBlockAborted && port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      EmptyLeaves(vtkDataObject::GetData(outputs, port));
+    }
+    this->Tables->Exchange(outputs);
+  }
+  const std::vector<double> steps = this->TimeSteps();
+  if (!steps.empty())
+  {
+    gridfem::SetTimeSteps(steps, outputs);
+  }
+}
+
+/// Computes on a surface that is not joined: the input, or one block of it.
+void vtkSurfaceFEMAlgorithm::ComputeAlone(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformationVector** surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
+  try
+  {
+    this->ComputeSurface(surfaces, outputs);
+  }
+  catch (const gridfem::MissingArray& error)
+  {
+    if (!this->Blocks->AnyHas(error))
+    {
+      throw;
+    }
+    PassOn(surfaces[0], outputs);
+    vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
+  }
+  catch (const gridfem::MissingChoice& choice)
+  {
+    PassOn(surfaces[0], outputs);
+    vtkWarningMacro(<< choice.what() << " Until then the output is the input.");
+  }
+  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
+}
 
 /// Computes one block of a surface of several blocks. The first block computes for all.
 void vtkSurfaceFEMAlgorithm::ComputeBlock(

@@ -2,10 +2,13 @@
 
 #include "FilterSupport.h"
 
+#include "vtkHarmonicInterpolation.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkScreenedPoisson.h"
 
 #include "vtkAppendFilter.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkUnstructuredGrid.h"
@@ -185,4 +188,110 @@ TEST_F(OtherDataSets, AnArrayThatNoBlockHasIsAnError)
   filter->Update();
   EXPECT_EQ(messages.errors.size(), 2u); // of each block
   EXPECT_TRUE(messages.warnings.empty());
+}
+
+/// "f" is an array of cells in one block. The filter looks for an array of points.
+TEST_F(OtherDataSets, AnArrayThatBlocksHaveOnlyOfTheOtherKindIsAnError)
+{
+  const auto blocks = Blocks(sphere, { false, false });
+  vtkNew<vtkDoubleArray> cells;
+  cells->SetName("f");
+  cells->SetNumberOfTuples(sphere->GetNumberOfCells());
+  cells->Fill(1.0);
+  vtkPolyData::SafeDownCast(blocks->GetBlock(1))->GetCellData()->AddArray(cells);
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  EXPECT_EQ(messages.errors.size(), 2u);
+  EXPECT_TRUE(messages.warnings.empty());
+}
+
+/// The blocks have the array that the places lack.
+TEST_F(OtherDataSets, AnArrayThatPlacesLackIsAnErrorForBlocks)
+{
+  for (const bool isFurther : { false, true })
+  {
+    const auto places = ToPolyData(GeodesicSphere(2));
+    AddPointArray(places, isFurther ? "f" : "other", 1, Wave);
+    AddPointArray(sphere, "further", 1, Wave);
+    vtkNew<vtkHarmonicInterpolation> interpolation;
+    interpolation->SetDepth(4);
+    interpolation->SetInputDataObject(0, Blocks(sphere, { true, true }));
+    interpolation->SetInputDataObject(2, places);
+    interpolation->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    interpolation->AddFurtherArray(isFurther ? "further" : nullptr);
+    const Messages ofThis(interpolation);
+    interpolation->Update();
+    EXPECT_EQ(ofThis.errors.size(), 2u) << isFurther;
+    EXPECT_TRUE(ofThis.warnings.empty()) << isFurther;
+  }
+}
+
+TEST_F(OtherDataSets, TheErrorCodeTellsThatABlockFailed)
+{
+  const auto blocks = Blocks(sphere, { true, true });
+  vtkPolyData::SafeDownCast(blocks->GetBlock(0))->GetPointData()->RemoveArray("f");
+  AddPointArray(vtkPolyData::SafeDownCast(blocks->GetBlock(0)), "f", 1,
+    [](const Vec3&, int) { return std::nan(""); });
+  filter->SetInputDataObject(blocks);
+  filter->Update();
+  ExpectOne(messages.errors, "NaN");
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UnknownError));
+  filter->SetInputDataObject(Blocks(sphere, { true, true }));
+  filter->Update();
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+}
+
+namespace
+{
+
+/// Aborts a filter once, in its second block.
+class AbortInSecondBlock
+{
+public:
+  explicit AbortInSecondBlock(vtkAlgorithm* filter)
+  {
+    vtkNew<vtkCallbackCommand> listen;
+    listen->SetClientData(&starts_);
+    listen->SetCallback(
+      [](vtkObject* caller, unsigned long event, void* client, void*)
+      {
+        constexpr int OfSecondBlock = 3; // the first is that of the whole
+        int& starts = *static_cast<int*>(client);
+        starts += event == vtkCommand::StartEvent ? 1 : 0;
+        auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+        if (starts == OfSecondBlock && algorithm->GetProgress() > 0.0)
+        {
+          algorithm->SetAbortExecute(1);
+          ++starts;
+        }
+      });
+    filter->AddObserver(vtkCommand::StartEvent, listen);
+    filter->AddObserver(vtkCommand::ProgressEvent, listen);
+  }
+
+private:
+  int starts_ = 0;
+};
+
+} // namespace
+
+TEST_F(OtherDataSets, AnAbortInOneBlockEmptiesAll)
+{
+  const AbortInSecondBlock abort(filter);
+  filter->SetInputDataObject(Blocks(sphere, { true, true, true }));
+  filter->Update();
+  EXPECT_TRUE(messages.errors.empty());
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1); // the first block had a result
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  for (int port = 0; port < 2; ++port)
+  {
+    auto* output = vtkCompositeDataSet::SafeDownCast(filter->GetOutputDataObject(port));
+    ASSERT_TRUE(output);
+    output->Print(std::cerr);
+    const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(output->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      EXPECT_TRUE(IsEmptyData(leaf->GetCurrentDataObject())) << port;
+    }
+  }
 }

@@ -22,16 +22,6 @@ std::string ChosenName(vtkInformation* choice)
   return name ? name : "";
 }
 
-bool IsChosen(vtkInformation* choice, vtkDataSet* input)
-{
-  if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-  {
-    return true;
-  }
-  const std::string name = ChosenName(choice);
-  return !MeansNoArray(name) || (!name.empty() && HasArray(input, name));
-}
-
 std::string ArrayNames(vtkDataSetAttributes* attributes)
 {
   std::string names;
@@ -77,8 +67,9 @@ vtkIdType TuplesOf(vtkDataSet* input, bool onPoints)
   return onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
 }
 
-void RequireFound(
-  vtkAbstractArray* found, const InputArray& result, const std::string& property, vtkDataSet* input)
+/// @param association  where the array was looked for
+void RequireFound(vtkAbstractArray* found, const InputArray& result, const std::string& property,
+  vtkDataSet* input, int association)
 {
   const std::string subject = property + " '" + result.name + "'";
   if (!found)
@@ -86,7 +77,7 @@ void RequireFound(
     throw MissingArray(subject +
                          " does not exist. Point arrays: " + ArrayNames(input->GetPointData()) +
                          ". Cell arrays: " + ArrayNames(input->GetCellData()) + ".",
-      result.name);
+      result.name, association);
   }
   if (!result.array)
   {
@@ -154,6 +145,24 @@ bool HasArray(vtkDataSet* data, const std::string& name)
          data->GetCellData()->HasArray(name.c_str());
 }
 
+bool MissingArray::IsOn(vtkDataSet* data) const
+{
+  const bool mayBeOnPoints = association != vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  const bool mayBeOnCells = association != vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  return (mayBeOnPoints && data->GetPointData()->HasArray(array.c_str())) ||
+         (mayBeOnCells && data->GetCellData()->HasArray(array.c_str()));
+}
+
+bool IsChosen(vtkInformation* choice, vtkDataSet* input)
+{
+  if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return true;
+  }
+  const std::string name = ChosenName(choice);
+  return !MeansNoArray(name) || (!name.empty() && input && HasArray(input, name));
+}
+
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property)
 {
@@ -168,7 +177,7 @@ InputArray FindInputArray(
   result.array = vtkDataArray::SafeDownCast(found);
   result.name = found && found->GetName() ? found->GetName() : ChosenName(choice);
   result.association = onPoints ? FieldAssociation::Points : FieldAssociation::Triangles;
-  RequireFound(found, result, property, input);
+  RequireFound(found, result, property, input, choice->Get(vtkDataObject::FIELD_ASSOCIATION()));
   return result;
 }
 

@@ -17,6 +17,7 @@ class vtkAlgorithm;
 class vtkDataArray;
 class vtkDataSet;
 class vtkDataSetAttributes;
+class vtkInformation;
 
 namespace gridfem
 {
@@ -29,17 +30,22 @@ struct InputArray
   std::string name;
   /// Components of each array that it is joined from; empty: it is one array.
   std::vector<int> parts{};
-};
   bool isOfSurface = true; // false: of places of their own, so ids of the surface name no tuples
+};
 
-/// Thrown if the input lacks the chosen array.
+/// Thrown if the surface lacks the chosen array.
 struct MissingArray : InvalidInput
 {
-  MissingArray(const std::string& message, std::string name)
-    : InvalidInput(message), array(std::move(name))
+  MissingArray(const std::string& message, std::string name, int whose)
+    : InvalidInput(message), array(std::move(name)), association(whose)
   {
   }
+
+  /// Whether a data set has the array where it was looked for.
+  bool IsOn(vtkDataSet* data) const;
+
   std::string array;
+  int association; // vtkDataObject::FIELD_ASSOCIATION_POINTS, ...
 };
 
 /// Thrown if the user has not chosen something that the filter needs. The filter then passes its
@@ -55,6 +61,10 @@ bool MeansNoArray(const std::string& name);
 
 /// Whether there is a point or cell array of this name.
 bool HasArray(vtkDataSet* data, const std::string& name);
+
+/// Whether SetInputArrayToProcess has chosen an array, by its name or as an active attribute.
+/// @param input  may have an array whose name MeansNoArray; may be null
+bool IsChosen(vtkInformation* choice, vtkDataSet* input);
 
 /// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
 /// chosen. A name that MeansNoArray chooses none, unless an array has that name. Throws

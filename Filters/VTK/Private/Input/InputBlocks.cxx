@@ -185,24 +185,25 @@ vtkSmartPointer<vtkDataObjectTree> CopyOf(vtkDataObjectTree* tree)
 
 } // namespace
 
-void InputBlocks::Begin(vtkInformationVector** inputs, int ports)
+bool InputBlocks::Begin(vtkInformationVector** inputs, int ports)
 {
   if (depth_++ > 0)
   {
-    return;
+    return false;
   }
   if (Ranks::AreSeveral())
   {
     this->Align(inputs, ports);
   }
   whole_ = vtkCompositeDataSet::GetData(inputs[0]);
+  return true;
 }
 
-void InputBlocks::End()
+bool InputBlocks::End()
 {
   if (--depth_ > 0)
   {
-    return;
+    return false;
   }
   whole_ = nullptr;
   for (const auto& [information, data] : given_)
@@ -210,6 +211,7 @@ void InputBlocks::End()
     information->Set(vtkDataObject::DATA_OBJECT(), data);
   }
   given_.clear();
+  return true;
 }
 
 void InputBlocks::Align(vtkInformationVector** inputs, int ports)
@@ -270,7 +272,7 @@ void InputBlocks::AlignPort(vtkInformation* information, const std::vector<std::
   information->Set(vtkDataObject::DATA_OBJECT(), copy);
 }
 
-bool InputBlocks::AnyHas(const std::string& array) const
+bool InputBlocks::AnyHas(const MissingArray& missing) const
 {
   if (!whole_)
   {
@@ -280,7 +282,7 @@ bool InputBlocks::AnyHas(const std::string& array) const
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
     auto* block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject());
-    if (block && HasArray(block, array))
+    if (block && missing.IsOn(block))
     {
       return true;
     }

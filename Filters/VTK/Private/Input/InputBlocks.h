@@ -18,6 +18,8 @@ class vtkInformationVector;
 namespace gridfem
 {
 
+struct MissingArray;
+
 /// Gives every rank the same blocks while a filter runs. A rank without a block gets an empty
 /// surface. Knows the whole input while a filter sees one block of it.
 class InputBlocks
@@ -25,15 +27,16 @@ class InputBlocks
 public:
   /// Call it at the start of an execution. The pipeline starts one of its own for every block, too.
   /// The outermost call is collective and replaces composite inputs by aligned composite inputs.
-  /// Throws nothing.
-  void Begin(vtkInformationVector** inputs, int ports);
+  /// Throws nothing. Returns whether it is the outermost call.
+  bool Begin(vtkInformationVector** inputs, int ports);
 
-  /// Call it at the end of an execution. The outermost call puts the inputs back.
-  void End();
+  /// Call it at the end of an execution. The outermost call puts the inputs back. Returns whether
+  /// it is the outermost call.
+  bool End();
 
-  /// Whether a block of port 0 has a point or cell array of this name. False if the input is not
+  /// Whether a block of port 0 has the array that another one lacks. False if the input is not
   /// composite.
-  bool AnyHas(const std::string& array) const;
+  bool AnyHas(const MissingArray& missing) const;
 
   /// The whole input of port 0. Null if it is not composite.
   vtkCompositeDataSet* Whole() const { return whole_; }
