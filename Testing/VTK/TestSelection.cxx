@@ -419,6 +419,46 @@ TEST(Selection, WithAListThatDoesNotFitIsRefused)
   refuse(vtkSelectionNode::FRUSTUM, Numbers(4, std::vector<double>(32, 1.0)), "corners", "volume");
 }
 
+namespace
+{
+
+/// Returns a sphere whose cell 5 names a point that does not exist.
+vtkSmartPointer<vtkPolyData> SphereWithAWrongCorner(vtkIdType corner)
+{
+  const auto sphere = Sphere();
+  const vtkIdType corners[3] = { 0, 1, corner };
+  sphere->GetPolys()->ReplaceCellAtId(5, 3, corners);
+  return sphere;
+}
+
+} // namespace
+
+TEST(Selection, OfCellsWithAPointThatDoesNotExistIsRefused)
+{
+  for (const vtkIdType corner : { vtkIdType(-1), vtkIdType(1) << 40 })
+  {
+    const auto sphere = SphereWithAWrongCorner(corner);
+    ExpectRefused(DetailOf(sphere, SelectIds(vtkSelectionNode::CELL, { 5 })),
+      "Cell 5 uses point " + std::to_string(corner), "but the mesh has");
+    ExpectRefused(DetailOf(sphere, SelectPoints({ 3 })), "Cell 5 uses point");
+  }
+}
+
+TEST(Selection, InABlockBesideABadOneIsTaken)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, SphereWithAWrongCorner(vtkIdType(1) << 40));
+  blocks->SetBlock(1, Sphere());
+  const auto filter = DetailOf(blocks, SelectPoints({ 3, 17 }));
+  Messages messages(filter);
+  filter->Update();
+  ExpectOne(messages.errors, "Cell 5 uses point");
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_TRUE(IsEmptyData(output->GetBlock(0)));
+  EXPECT_EQ(
+    Selected(vtkPolyData::SafeDownCast(output->GetBlock(1))), (std::vector<vtkIdType>{ 3, 17 }));
+}
+
 /// ParaView has one node for each of its processes. The nodes of others are ignored, however many.
 TEST(Selection, TakesTheNodesOfThisProcess)
 {

@@ -79,12 +79,14 @@ void RemoveInsidedness(vtkDataObject* data)
   }
 }
 
+/// Copies a data set, or the blocks that can be read. Other blocks are refused in their own run.
 vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
 {
   auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
   auto* from = vtkCompositeDataSet::SafeDownCast(data);
   if (!from)
   {
+    RequireReadable(data);
     copy->ShallowCopy(data);
     RemoveInsidedness(copy);
     return copy;
@@ -94,7 +96,10 @@ vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
   const auto leaf = LeavesOf(from);
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
-    to->SetDataSet(leaf, CopyOf(leaf->GetCurrentDataObject()));
+    if (IsReadable(leaf->GetCurrentDataObject()))
+    {
+      to->SetDataSet(leaf, CopyOf(leaf->GetCurrentDataObject()));
+    }
   }
   return copy;
 }

@@ -1,13 +1,17 @@
 #include "Input/SelectionCheck.h"
 
+#include "Input/InputValidation.h"
 #include "Input/SelectionLists.h"
+#include "Pieces/PieceArrays.h"
 #include "Pieces/Ranks.h"
 
 #include "Base/Errors.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkSignedCharArray.h"
@@ -132,6 +136,29 @@ void RequireEvaluable(vtkSelection* selection, vtkDataObject* data)
     RequireList(node, data);
   }
   RequireExpression(selection);
+}
+
+void RequireReadable(vtkDataObject* data)
+{
+  RequireSoundCells(vtkDataSet::SafeDownCast(data));
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    ForEachCell(surface, [&](vtkIdType cell, const vtkIdType* ids, vtkIdType size)
+      { RequireCorners(cell, size, ids, surface->GetNumberOfPoints(), "mesh"); });
+  }
+}
+
+bool IsReadable(vtkDataObject* data)
+{
+  try
+  {
+    RequireReadable(data);
+    return true;
+  }
+  catch (const InvalidInput&)
+  {
+    return false;
+  }
 }
 
 } // namespace gridfem

@@ -18,6 +18,12 @@ void RequireOneProcess(const std::string& what);
 /// itself crashes on some of them, and takes wrong points or none for others.
 void RequireEvaluable(vtkSelection* selection, vtkDataObject* data);
 
+/// Throws InvalidInput for a data set with cells that VTK cannot read.
+void RequireReadable(vtkDataObject* data);
+
+/// Whether RequireReadable throws nothing.
+bool IsReadable(vtkDataObject* data);
+
 } // namespace gridfem
 
 #endif
