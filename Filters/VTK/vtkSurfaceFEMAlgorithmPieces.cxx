@@ -161,6 +161,7 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
     this->ComputeOnRanks(surfaces, joined.Results());
     return;
   }
+  gridfem::RequireFurtherInputs(inputs, ports);
   joined.Read(whole, count > 1);
   while (!joined.IsEmpty())
   {
@@ -203,6 +204,7 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
   ranks.Together(
     [&]
     {
+      gridfem::RequireFurtherInputs(inputs, this->GetNumberOfInputPorts());
       if (isShared)
       {
         gridfem::RequireNoVolume(piece);

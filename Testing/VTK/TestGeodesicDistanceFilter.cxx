@@ -7,6 +7,7 @@
 #include "vtkCutter.h"
 #include "vtkGeodesicDistance.h"
 #include "vtkMath.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPlane.h"
 
 #include <gtest/gtest.h>
@@ -271,6 +272,25 @@ TEST(GeodesicDistanceFilter, StartsFromAllPointsOfALineOnAGradedMesh)
   for (std::size_t k = 0; k < distance.size(); ++k)
   {
     EXPECT_EQ(distance[k] == 0.0, graded.points[k][1] == 0.5) << graded.points[k].transpose();
+  }
+}
+
+TEST(GeodesicDistanceFilter, RefusesLinesWithAPointThatDoesNotExist)
+{
+  for (const vtkIdType wrong : { vtkIdType(-1), vtkIdType(7), vtkIdType(1) << 40 })
+  {
+    const auto line = LineBetween({ 0, 0, 1 }, { 1, 0, 0 });
+    line->GetLines()->InsertNextCell({ 0, wrong });
+    auto filter = MakeFilter(ToPolyData(GeodesicSphere(4)), 4);
+    filter->SetInputDataObject(2, line);
+    ExpectRefused(filter, "uses point " + std::to_string(wrong));
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, ToPolyData(GeodesicSphere(4)));
+    filter->SetInputDataObject(0, blocks);
+    filter->BlocksAsOneOn();
+    Messages messages(filter);
+    filter->Update();
+    ExpectOne(messages.errors, "uses point " + std::to_string(wrong));
   }
 }
 

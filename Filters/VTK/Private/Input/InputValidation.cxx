@@ -6,6 +6,7 @@
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -29,11 +30,11 @@ void RequireSound(vtkCellArray* cells, const char* kind)
 
 void RequireExistingPoints(vtkCellArray* cells, vtkIdType points)
 {
-  vtkDataArray* const corners = cells->GetConnectivityArray();
-  if (cells->GetNumberOfConnectivityIds() == 0)
+  if (!cells || cells->GetNumberOfConnectivityIds() == 0)
   {
     return;
   }
+  vtkDataArray* const corners = cells->GetConnectivityArray();
   double range[2];
   corners->GetRange(range, 0);
   if (!(range[0] >= 0.0 && range[1] < static_cast<double>(points)))
@@ -88,9 +89,23 @@ void RequireSoundCells(vtkDataSet* input)
   else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
   {
     RequireSound(grid->GetCells(), "cells");
-    if (grid->GetCells())
+    RequireExistingPoints(grid->GetCells(), grid->GetNumberOfPoints());
+  }
+}
+
+void RequireFurtherInputs(vtkInformationVector** inputs, int ports)
+{
+  for (int port = 1; port < ports; ++port)
+  {
+    vtkDataSet* const data = vtkDataSet::GetData(inputs[port]);
+    RequireSoundCells(data);
+    if (auto* surface = vtkPolyData::SafeDownCast(data))
     {
-      RequireExistingPoints(grid->GetCells(), grid->GetNumberOfPoints());
+      for (vtkCellArray* cells :
+        { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+      {
+        RequireExistingPoints(cells, surface->GetNumberOfPoints());
+      }
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "vtkType.h"
 
 class vtkDataSet;
+class vtkInformationVector;
 
 namespace gridfem
 {
@@ -23,6 +24,11 @@ void RequireNoVolume(vtkDataSet* piece);
 /// vtkPolyData may still name points that do not exist. The cells of a vtkUnstructuredGrid may not,
 /// because VTK reads them unchecked. The data set may be null.
 void RequireSoundCells(vtkDataSet* input);
+
+/// Throws InvalidInput for cells on a port from 1 on that do not fit together, or that name points
+/// that do not exist. No filter reads these ports with checks of its own.
+/// @param inputs  one vector per port
+void RequireFurtherInputs(vtkInformationVector** inputs, int ports);
 
 /// Throws InvalidInput, naming the cell, if one of its corners is a point that does not exist.
 /// @param points  the number of points

@@ -19,10 +19,7 @@ SurfaceInput::~SurfaceInput() = default;
 
 vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numberOfPorts)
 {
-  for (int port = 1; port < numberOfPorts; ++port)
-  {
-    RequireSoundCells(vtkDataSet::GetData(inputs[port]));
-  }
+  RequireFurtherInputs(inputs, numberOfPorts);
   vtkDataSet* data = vtkDataSet::GetData(inputs[0]);
   if (!data || this->Of(data) == data)
   {
