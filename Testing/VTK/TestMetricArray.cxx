@@ -4,6 +4,7 @@
 #include "Spectra.h"
 
 #include "Grid/TriangleMesh.h"
+#include "Pieces/CanDistribute.h"
 
 #include "vtkLaplaceSpectrum.h"
 #include "vtkScreenedPoisson.h"
@@ -329,6 +330,22 @@ TEST_F(RefusedMetric, OnlyWhereItIsUsed)
   Messages messages(poisson);
   EXPECT_EQ(poisson->GetExecutive()->Update(), 1);
   EXPECT_TRUE(messages.errors.empty());
+}
+
+/// Ranks do not compute together with a Metric Array, however it is chosen.
+TEST(MetricArray, MayBeChosenAsAnActiveAttribute)
+{
+  vtkNew<vtkScreenedPoisson> filter;
+  EXPECT_FALSE(IsArrayChosen(filter, MetricIndex));
+  filter->SetInputArrayToProcess(MetricIndex, 0, 0, Points, "None");
+  EXPECT_FALSE(IsArrayChosen(filter, MetricIndex));
+  const auto sphere = ToPolyData(GeodesicSphere(2));
+  AddPointArray(sphere, "None", 6, [](const Vec3&, int) { return 1.0; });
+  filter->SetInputDataObject(sphere);
+  EXPECT_TRUE(IsArrayChosen(filter, MetricIndex));
+  vtkNew<vtkScreenedPoisson> other;
+  other->SetInputArrayToProcess(MetricIndex, 0, 0, Points, vtkDataSetAttributes::TENSORS);
+  EXPECT_TRUE(IsArrayChosen(other, MetricIndex));
 }
 
 TEST(MetricArray, ThatChangesRepeatsWhatDependsOnIt)

@@ -90,8 +90,8 @@ bool HasPolygons(vtkPolyData* piece)
 
 bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index)
 {
-  const char* name = filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
-  return name && !MeansNoArray(name);
+  return IsChosen(filter->GetInputArrayInformation(index),
+    vtkDataSet::SafeDownCast(filter->GetInputDataObject(0, 0)));
 }
 
 bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll)
