@@ -114,6 +114,10 @@ void vtkSurfaceDynamics::WriteStep(int shown, vtkPolyData* input, vtkPolyData* o
   {
     gridfem::AddFieldNumber(output, "Energy", frame.energy);
   }
+  else
+  {
+    output->GetFieldData()->RemoveArray("Energy"); // of earlier dynamics
+  }
   gridfem::AddReport(frame.report, output);
 }
 

@@ -291,6 +291,11 @@ void vtkSurfaceFEMAlgorithm::ComputeInside(
   this->State->Surface().Together(
     [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });
   this->Compute(inside, outputs);
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    gridfem::RemoveGivenReports(
+      vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs, port));
+  }
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   this->Inside->PutBack(output);
   NoteCopies(this->State->Surface(), output);
@@ -354,12 +359,12 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
 {
   EmptyOutputs(outputs);
+  this->IsBlockAborted = true;
   gridfem::ServeAbort(this);
 }
 
 vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(const char* stage)
 {
-  this->IsBlockAborted = true;
   return stage ? this->State->stages.Runs(stage) : 0;
 }
 

@@ -16,9 +16,12 @@
  *   the input. On several MPI ranks, and with BlocksAsOne, a missing choice is an error.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not
- *   run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run, after a change
- *   or for another time, is a full one.
+ * - An abort gives empty outputs, in all blocks, which are marked as aborted, so that downstream
+ *   filters do not run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run,
+ *   after a change or for another time, is a full one.
+ *
+ * Field arrays that report on a run, such as `Converged` or `Misfit`, are of this run. Reports of
+ * earlier filters do not pass.
  *
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips.
  * vtkDataSetSurfaceFilter extracts the surface of any other vtkDataSet. The outputs then lie on
@@ -417,11 +420,11 @@ private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
 
+  void BeginBlocks();
+  void EndBlocks();
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeAlone(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeBlock(vtkInformationVector** inputs, vtkInformationVector* outputs);
-  void BeginBlocks();
-  void EndBlocks();
   void ComputeJoinedBlocks(vtkInformationVector** inputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeInside(vtkInformationVector** inputs, vtkInformationVector* outputs);

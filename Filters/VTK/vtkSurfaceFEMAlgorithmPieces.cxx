@@ -231,8 +231,6 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // Otherwise the array of an earlier filter would stay.
-  vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
 /// Starts all ranks from the beginning after a failure, because the data of one rank may not fit

@@ -167,6 +167,15 @@ class OtherPorts(unittest.TestCase):
             problems.append("points on a rank that has none")
         ranks.check(self, problems)
 
+    def test_reports_of_earlier_runs_go(self):
+        for gathers in (False, True):
+            with self.subTest(gathers=gathers):
+                data = ranks.piece(ranks.ellipsoid(), "contiguous")
+                ranks.add(data.GetFieldData(), "Misfit", numpy.array([7.0]))
+                fields = ranks.run(ranks.make("ScreenedPoisson", gathers=gathers), data)[0].GetFieldData()
+                ranks.check(self, [name for name, is_there in (("Misfit", False), ("given", True), (
+                    "Converged", True)) if bool(fields.HasArray(name)) != is_there])
+
     def test_sources_wherever_they_are(self):
         mesh = ranks.ellipsoid()
         sources = [(1, 0, 0), (0, 0, 0.6), (-1, 0.1, 0)]

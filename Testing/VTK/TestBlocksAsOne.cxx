@@ -613,5 +613,27 @@ TEST_F(BlocksAsOne, FollowTheTimesOfTheInput)
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 3);
   EXPECT_EQ(spectrum->GetNumberOfRuns("Space"), 1);
 }
+/// Reports on an earlier run are not those of this one.
+TEST_F(BlocksAsOne, LoseTheReportsOfEarlierFilters)
+{
+  for (vtkPolyData* part : parts)
+  {
+    for (const char* name : { "Misfit", "Own" })
+    {
+      vtkNew<vtkDoubleArray> report;
+      report->SetName(name);
+      report->InsertNextValue(7.0);
+      part->GetFieldData()->AddArray(report);
+    }
+  }
+  filter->SetInputDataObject(this->Nested());
+  filter->Update();
+  for (vtkPolyData* leaf : LeavesOf(filter->GetOutputDataObject(0)))
+  {
+    EXPECT_FALSE(leaf->GetFieldData()->HasArray("Misfit"));
+    EXPECT_EQ(leaf->GetFieldData()->HasArray("Own"), leaf->GetNumberOfPoints() > 0);
+  }
+}
+
 
 } // namespace

@@ -115,6 +115,64 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, ResultNames, AllFilters(), NameOf);
 
 } // namespace
 
+namespace
+{
+
+/// Adds a field array with one number for each name.
+void AddFields(vtkPolyData* surface, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->InsertNextValue(7.0);
+    surface->GetFieldData()->AddArray(array);
+  }
+}
+
+} // namespace
+
+/// All field arrays that report on a run are of this run, or there is none.
+TEST_P(ResultNames, ReportsOfEarlierRunsGo)
+{
+  const std::vector<std::string> reports = { "Device", "Converged", "Iterations",
+    "DoublePrecisionSince", "Residual", "ConvergenceFactor", "DiscretizationError",
+    "LargestDiscretizationError", "AlgebraicError", "TrustedEstimate", "Misfit", "UsualCurvature",
+    "LargestStretchRatio", "HeatSweeps", "LeaveOneOutRatio", "LogLikelihood", "TurnedTriangles",
+    "CopiedTriangles", "UsedDepth", "Distributed" };
+  const auto fresh = GetParam().make();
+  Update(fresh, surface);
+  AddFields(surface, reports);
+  AddFields(surface, { "Own", "Eigenvalues", "ReferenceTime" });
+  const auto filter = GetParam().make();
+  vtkPolyData* output = Update(filter, surface);
+  for (const std::string& name : reports)
+  {
+    for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+    {
+      EXPECT_EQ(filter->GetOutputDataObject(port)->GetFieldData()->HasArray(name.c_str()),
+        fresh->GetOutputDataObject(port)->GetFieldData()->HasArray(name.c_str()))
+        << name << port;
+    }
+    const double value = FieldValue(output, name.c_str());
+    EXPECT_TRUE(!(value == 7.0) || FieldValue(fresh->GetOutputDataObject(0), name.c_str()) == 7.0)
+      << name;
+  }
+  if (output->GetNumberOfPolys() > 0) // paths have no arrays of the input
+  {
+    EXPECT_EQ(FieldValue(output, "Own"), 7.0);
+    EXPECT_EQ(FieldValue(output, "ReferenceTime"), 7.0);
+  }
+  EXPECT_EQ(FieldValue(surface, "Misfit"), 7.0);
+}
+
+TEST(ResultNames, DynamicsWithoutAnEnergyHaveNone)
+{
+  auto surface = ToPolyData(GeodesicSphere(2));
+  AddFields(surface, { "Energy" });
+  EXPECT_FALSE(Update(MakeDynamics(), surface)->GetFieldData()->HasArray("Energy"));
+}
+
 TEST(ResultNames, SmoothingsInARowKeepAllSolutions)
 {
   auto surface = ToPolyData(GeodesicSphere(2));

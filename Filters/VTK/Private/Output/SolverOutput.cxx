@@ -148,6 +148,23 @@ void AddDevice(const std::string& where, vtkPolyData* output)
   }
 }
 
+void RemoveGivenReports(vtkDataObject* input, vtkDataObject* output)
+{
+  constexpr const char* Reports[] = { "Device", "Converged", "Iterations", "DoublePrecisionSince",
+    "Residual", "ConvergenceFactor", "DiscretizationError", "LargestDiscretizationError",
+    "AlgebraicError", "TrustedEstimate", "Misfit", "UsualCurvature", "LargestStretchRatio",
+    "HeatSweeps", "LeaveOneOutRatio", "LogLikelihood", "TurnedTriangles", "CopiedTriangles",
+    "UsedDepth", DistributedName };
+  for (const char* name : Reports)
+  {
+    vtkAbstractArray* given = input ? input->GetFieldData()->GetAbstractArray(name) : nullptr;
+    if (given && output->GetFieldData()->GetAbstractArray(name) == given)
+    {
+      output->GetFieldData()->RemoveArray(name);
+    }
+  }
+}
+
 void AddReport(const SolveReport& report, vtkPolyData* output)
 {
   AddDevice(report.where, output);

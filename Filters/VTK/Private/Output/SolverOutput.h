@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDataObject;
 class vtkPolyData;
 class vtkTable;
 
@@ -63,6 +64,12 @@ void AddDevice(const std::string& where, vtkPolyData* output);
 
 /// The field array that is 1 if ranks have computed together.
 constexpr const char* DistributedName = "Distributed";
+
+/// Removes field arrays that report on an earlier run from an output: `Converged`, `Misfit`, and
+/// all others that filters add. They are those of its input that this run has not replaced. Arrays
+/// that belong to data which stay, such as `Eigenvalues`, stay.
+/// @param input  may be null
+void RemoveGivenReports(vtkDataObject* input, vtkDataObject* output);
 
 ///@{ Adds a field array with one number, or with some.
 void AddFieldNumber(vtkPolyData* output, const char* name, double value);

@@ -2,6 +2,7 @@
 
 #include "Output/ClippedArrays.h"
 #include "Output/InterpolatedArrays.h"
+#include "Output/SolverOutput.h"
 #include "Pieces/Ranks.h"
 #include "Pipeline/Allocation.h"
 
@@ -361,6 +362,7 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
   const vtkNew<vtkFieldData> none;
   vtkFieldData* const given = input ? input->GetFieldData() : none.Get();
   vtkFieldData* const results = output->GetFieldData();
+  RemoveGivenReports(own, surface);
   DataMessage message;
   if (!PutLackingArrays(ranks, given, results, message))
   {
