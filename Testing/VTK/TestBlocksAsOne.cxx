@@ -7,6 +7,7 @@
 #include "Selections.h"
 
 #include "vtkClipToOctree.h"
+#include "vtkFarthestPoints.h"
 #include "vtkGeodesicDistance.h"
 #include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
@@ -24,6 +25,7 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -527,6 +529,31 @@ TEST_F(BlocksAsOne, AnEmptyInputAndAVolumeInBlocks)
   ExpectOne(messages.errors, "volume");
 }
 
+/// A copy of a cell that no block has gets no result: its own point has no id.
+TEST_F(BlocksAsOne, ACopyWithoutItsCellHasNoId)
+{
+  const vtkIdType far = parts[0]->GetPoints()->InsertNextPoint(9.0, 9.0, 9.0);
+  parts[0]->GetPolys()->InsertNextCell({ 0, 1, far });
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(parts[0]->GetNumberOfCells());
+  ghosts->Fill(0);
+  ghosts->SetValue(parts[0]->GetNumberOfCells() - 1, vtkDataSetAttributes::DUPLICATECELL);
+  for (const char* name : { "f", "origin" })
+  {
+    parts[0]->GetPointData()->GetArray(name)->InsertNextTuple1(0.0);
+  }
+  parts[0]->GetCellData()->AddArray(ghosts);
+  vtkNew<vtkFarthestPoints> farthest;
+  this->SetUp(farthest);
+  farthest->SetInputDataObject(this->Nested());
+  farthest->Update();
+  vtkPointData* points = LeavesOf(farthest->GetOutputDataObject(0))[0]->GetPointData();
+  EXPECT_GE(points->GetArray("NearestPoint")->GetComponent(0, 0), 0);
+  EXPECT_EQ(points->GetArray("NearestPoint")->GetComponent(far, 0), -1);
+  EXPECT_TRUE(std::isnan(points->GetArray("Distance")->GetComponent(far, 0)));
+}
+
 TEST_F(BlocksAsOne, OffEveryBlockIsASurface)
 {
   filter->BlocksAsOneOff();
@@ -586,6 +613,28 @@ TEST_F(BlocksAsOne, MoveTogetherThroughTheStepsOfAFlow)
   EXPECT_EQ(flow->GetNumberOfRuns("Space"), 1);
 }
 
+/// Reports on an earlier run are not those of this one.
+TEST_F(BlocksAsOne, LoseTheReportsOfEarlierFilters)
+{
+  for (vtkPolyData* part : parts)
+  {
+    for (const char* name : { "Misfit", "Own" })
+    {
+      vtkNew<vtkDoubleArray> report;
+      report->SetName(name);
+      report->InsertNextValue(7.0);
+      part->GetFieldData()->AddArray(report);
+    }
+  }
+  filter->SetInputDataObject(this->Nested());
+  filter->Update();
+  for (vtkPolyData* leaf : LeavesOf(filter->GetOutputDataObject(0)))
+  {
+    EXPECT_FALSE(leaf->GetFieldData()->HasArray("Misfit"));
+    EXPECT_EQ(leaf->GetFieldData()->HasArray("Own"), leaf->GetNumberOfPoints() > 0);
+  }
+}
+
 TEST_F(BlocksAsOne, FollowTheTimesOfTheInput)
 {
   vtkNew<GrowingSphere> source;
@@ -613,27 +662,5 @@ TEST_F(BlocksAsOne, FollowTheTimesOfTheInput)
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 3);
   EXPECT_EQ(spectrum->GetNumberOfRuns("Space"), 1);
 }
-/// Reports on an earlier run are not those of this one.
-TEST_F(BlocksAsOne, LoseTheReportsOfEarlierFilters)
-{
-  for (vtkPolyData* part : parts)
-  {
-    for (const char* name : { "Misfit", "Own" })
-    {
-      vtkNew<vtkDoubleArray> report;
-      report->SetName(name);
-      report->InsertNextValue(7.0);
-      part->GetFieldData()->AddArray(report);
-    }
-  }
-  filter->SetInputDataObject(this->Nested());
-  filter->Update();
-  for (vtkPolyData* leaf : LeavesOf(filter->GetOutputDataObject(0)))
-  {
-    EXPECT_FALSE(leaf->GetFieldData()->HasArray("Misfit"));
-    EXPECT_EQ(leaf->GetFieldData()->HasArray("Own"), leaf->GetNumberOfPoints() > 0);
-  }
-}
-
 
 } // namespace

@@ -51,13 +51,21 @@ bool HasCellsOf(vtkPolyData* output, vtkPolyData* input)
          are(output->GetPolys(), input->GetPolys()) && are(output->GetStrips(), input->GetStrips());
 }
 
-/// Returns the tuples at some places. Missing places give NaN or 0.
+/// Returns what a result has where there is none.
+double NumberOfNone(vtkAbstractArray* array)
+{
+  return IsReal(array)                         ? std::numeric_limits<double>::quiet_NaN()
+         : array->GetDataType() == VTK_ID_TYPE ? -1.0
+                                               : 0.0;
+}
+
+/// Returns the tuples at some places. Missing places have no result.
 vtkSmartPointer<vtkAbstractArray> TuplesAt(
   vtkAbstractArray* array, const std::vector<vtkIdType>& places)
 {
   const auto picked = MakeLike(array, static_cast<vtkIdType>(places.size()));
   auto* numbers = vtkDataArray::SafeDownCast(picked);
-  const double nothing = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  const double nothing = NumberOfNone(array);
   for (std::size_t k = 0; k < places.size(); ++k)
   {
     const auto tuple = static_cast<vtkIdType>(k);
@@ -354,6 +362,7 @@ void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output)
   TakeAttributes(message, surface->GetPointData());
   TakeAttributes(message, surface->GetCellData());
   TakeFieldArrays(message, surface->GetFieldData());
+  RemoveGivenReports(own, surface);
 }
 
 void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
@@ -362,7 +371,6 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
   const vtkNew<vtkFieldData> none;
   vtkFieldData* const given = input ? input->GetFieldData() : none.Get();
   vtkFieldData* const results = output->GetFieldData();
-  RemoveGivenReports(own, surface);
   DataMessage message;
   if (!PutLackingArrays(ranks, given, results, message))
   {

@@ -21,7 +21,8 @@ enum class GivenFieldArrays
 /// Puts a rank's part of an output of the first rank, or of a block, into the message.
 /// - An output with the cells of the gathered surface gives only its new data. These are the arrays
 ///   at the rank's own points and cells, copied ones included, and the places of moved points.
-///   Points and cells that the gathered surface lacks get NaN for real numbers and 0 for others.
+///   Points and cells that the gathered surface lacks get NaN for real numbers, -1 for ids and 0
+///   for others.
 /// - An output with cells of its own gives only the names of arrays. So does any output if the
 ///   first rank has all of the surface.
 /// - Field arrays go to every rank. The tables of a clip and of a basis go only with its cells.
