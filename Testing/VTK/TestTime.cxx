@@ -2,6 +2,8 @@
 // time steps belong to one surface.
 
 #include "GrowingSphere.h"
+#include "Pieces/GatheredRanks.h"
+#include "Pipeline/PipelineTime.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
@@ -10,6 +12,8 @@
 #include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
+
+#include "vtkDummyController.h"
 
 #include <gtest/gtest.h>
 
@@ -276,3 +280,41 @@ TEST_F(Time, ModesThatDoNotExistAreNoTimeSteps)
 }
 
 } // namespace
+
+/// Ranks gather data that stay the same at another time only once.
+TEST(GatheredRanks, HaveTheTimeOfTheirInput)
+{
+  const vtkSmartPointer<vtkMultiProcessController> before =
+    vtkMultiProcessController::GetGlobalController();
+  vtkNew<vtkDummyController> alone;
+  vtkMultiProcessController::SetGlobalController(alone);
+  vtkNew<vtkPolyData> sphere;
+  sphere->ShallowCopy(ToPolyData(GeodesicSphere(2)));
+  vtkNew<vtkInformationVector> input;
+  vtkNew<vtkInformationVector> outputs;
+  input->Append(vtkNew<vtkInformation>());
+  outputs->Append(vtkNew<vtkInformation>());
+  input->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), sphere);
+  vtkNew<vtkPolyData> output;
+  outputs->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), output);
+  vtkInformationVector* inputs[] = { input };
+  GatheredRanks ranks;
+  const auto timeAt = [&](std::optional<double> time)
+  {
+    SetTime(sphere, time);
+    std::optional<double> seen;
+    ranks.Run(inputs, 1, outputs, true, {},
+      [&](vtkInformationVector** gathered, vtkInformationVector*)
+      {
+        seen = TimeOf(vtkDataObject::GetData(gathered[0]));
+        return std::vector<double>();
+      });
+    return seen;
+  };
+  for (const std::optional<double> time :
+    { std::make_optional(1.0), std::make_optional(2.0), std::optional<double>() })
+  {
+    EXPECT_EQ(timeAt(time), time);
+  }
+  vtkMultiProcessController::SetGlobalController(before);
+}

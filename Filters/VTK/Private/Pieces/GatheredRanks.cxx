@@ -159,6 +159,10 @@ void GatheredRanks::Run(vtkInformationVector** inputs, int ports, vtkInformation
     return;
   }
   this->Update(inputs, ports, weldCoincidentPoints);
+  if (ranks.IsFirst())
+  {
+    SetTime(surface_.whole, TimeOf(own_)); // other times may have the same data
+  }
   std::vector<Bytes> parts;
   ranks.OnFirst(
     [&]
