@@ -7,8 +7,8 @@ import numpy
 from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
-    VTK_POLY_LINE, VTK_VERTEX, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
-    vtkPolyData, vtkUnstructuredGrid)
+    VTK_POLY_LINE, VTK_VERTEX, vtkCellArray, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+    vtkPartitionedDataSetCollection, vtkPolyData, vtkUnstructuredGrid)
 from vtkmodules.vtkIOParallelXML import vtkXMLPPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
 
@@ -229,6 +229,39 @@ class OtherPorts(unittest.TestCase):
             return ranks.run(filter_, data)[0]
         reference = ranks.alone(lambda: interpolated(ranks.whole(mesh)))
         ranks.check(self, expect(interpolated(data), reference, "Interpolated", data))
+
+    def test_observations_on_borders_count_once(self):
+        mesh = ranks.ellipsoid()
+        points = numpy.array([(1, 0, 0), (0.7, 0.5, 0.1), (0, 0.8, 0), (-0.7, 0.5, 0), (-1, 0.1, 0)])
+        data = ranks.piece(mesh, "contiguous")
+
+        def lines(first, last):
+            polyline = vtkPolyData()
+            where = vtkPoints()
+            where.SetDataTypeToDouble()
+            for point in points[first:last + 1]:
+                where.InsertNextPoint(*point)
+            polyline.SetPoints(where)
+            cells = vtkCellArray()
+            for k in range(last - first):
+                cells.InsertNextCell(2, [k, k + 1])
+            polyline.SetLines(cells)
+            ranks.add(polyline.GetPointData(), "v", numpy.sin(3.0 * points[first:last + 1, 0]))
+            polyline.GetPointData().SetActiveScalars("v")
+            return polyline
+
+        def predicted(data, observations):
+            filter_ = ranks.make("GaussianField")
+            filter_.SetInputArrayToProcess(0, 0, 0, ranks.POINTS, "None")
+            filter_.SetRange(1.0)
+            filter_.SetObservationNoise(0.3)
+            filter_.SetInputDataObject(2, observations)
+            return ranks.run(filter_, data)[0]
+        reference = ranks.alone(lambda: predicted(ranks.whole(mesh), lines(0, 4)))
+        last = len(points) - 1
+        own = [last * k // ranks.RANKS for k in (ranks.RANK, ranks.RANK + 1)]
+        output = predicted(data, lines(*own))
+        ranks.check(self, expect(output, reference, "Prediction", data))
 
 
 class Arrays(unittest.TestCase):

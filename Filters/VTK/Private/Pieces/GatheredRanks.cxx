@@ -240,7 +240,9 @@ void GatheredRanks::Join(
     others_[port] = nullptr;
     if (HasPointsBehindFirst(pieces[port]))
     {
-      const vtkSmartPointer<vtkPolyData> whole = JoinPieces(pieces[port], owners, false).whole;
+      // Pieces of places have copies of points at their borders. A basis has cells of its own.
+      const bool arePlaces = port > 1;
+      const vtkSmartPointer<vtkPolyData> whole = JoinPieces(pieces[port], owners, arePlaces).whole;
       others_[port] = whole;
       if (before)
       {
