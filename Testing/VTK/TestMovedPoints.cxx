@@ -5,6 +5,7 @@
 
 #include "Grid/TriangleMesh.h"
 
+#include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkScreenedPoisson.h"
@@ -85,6 +86,55 @@ TEST_F(MovedPoints, NormalsFollowAndClipBasisAndModesGo)
   EXPECT_FALSE(moved->GetFieldData()->HasArray("Eigenvalues"));
   EXPECT_FALSE(moved->GetPointData()->HasArray("Mode003"));
   EXPECT_TRUE(moved->GetPointData()->HasArray("HeatKernelSignature"));
+}
+
+/// Names of a clip and of modes are free on a mesh that carries none.
+TEST_F(MovedPoints, OwnArraysWithNamesOfAClipOrOfModesStay)
+{
+  const std::vector<const char*> ofCells = { "PatchId", "SourceCellId", "OctreeCellColor" };
+  for (const char* name : ofCells)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->SetNumberOfTuples(sphere->GetNumberOfCells());
+    array->Fill(3.0);
+    sphere->GetCellData()->AddArray(array);
+  }
+  for (const char* name : { "Mode", "Mode000", "Mode012" })
+  {
+    AddPointArray(sphere, name, 1, Wave);
+  }
+  vtkNew<vtkScreenedPoisson> poisson;
+  poisson->SetInputData(sphere);
+  poisson->SetDepth(3);
+  poisson->Update();
+  vtkPolyData* moved = poisson->GetOutput();
+  ASSERT_NE(moved->GetPoints(), sphere->GetPoints());
+  for (const char* name : ofCells)
+  {
+    EXPECT_EQ(moved->GetCellData()->GetArray(name), sphere->GetCellData()->GetArray(name)) << name;
+  }
+  for (const char* name : { "Mode", "Mode000", "Mode012" })
+  {
+    EXPECT_TRUE(moved->GetPointData()->HasArray(name)) << name;
+  }
+  // The clip replaces only arrays that it writes, and a clip of a clip has those of the last one.
+  vtkNew<vtkClipToOctree> clip;
+  clip->SetInputData(sphere);
+  clip->SetDepth(3);
+  clip->Update();
+  vtkCellData* cells = clip->GetOutput()->GetCellData();
+  ASSERT_TRUE(cells->HasArray("PatchId"));
+  EXPECT_EQ(cells->GetArray("PatchId")->GetComponent(0, 0), 3.0);
+  EXPECT_EQ(cells->GetArray("SourceCellId")->GetRange()[0], 0.0);
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputData(ToPolyData(GeodesicSphere(4)));
+  basis->SetDepth(3);
+  vtkNew<vtkClipToOctree> again;
+  again->SetInputConnection(basis->GetOutputPort());
+  again->SetDepth(4);
+  again->Update();
+  EXPECT_FALSE(again->GetOutput()->GetCellData()->HasArray("PatchId"));
 }
 
 TEST_F(MovedPoints, ModesOfAnotherShapeAreComputedAnew)

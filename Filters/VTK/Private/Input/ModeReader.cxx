@@ -70,6 +70,10 @@ bool CarriesModes(vtkPolyData* input)
 
 void RemoveModes(vtkPolyData* data)
 {
+  if (!Eigenvalues(data))
+  {
+    return;
+  }
   vtkPointData* arrays = data->GetPointData();
   for (int k = arrays->GetNumberOfArrays() - 1; k >= 0; --k)
   {

@@ -20,7 +20,8 @@ std::string ModeName(int mode);
 /// Whether the mesh has the field array Eigenvalues and the point array Mode000.
 bool CarriesModes(vtkPolyData* input);
 
-/// Removes all modes: the point arrays Mode, Mode000, ... and the field array Eigenvalues.
+/// Removes all modes: the point arrays Mode, Mode000, ... and the field array Eigenvalues. Without
+/// this field array, the point arrays are no modes and stay.
 void RemoveModes(vtkPolyData* data);
 
 /// Adds the arrays of the modes.

@@ -196,8 +196,8 @@ void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh
 {
   InterpolatePointArrays(input->GetPointData(), *mesh.triangles, clipped,
     !clipped.cutPoints.empty(), threads, output->GetPointData());
-  CopyCellArrays(input->GetCellData(), input->GetNumberOfCells(), output->GetCellData(),
-    output->GetCellData()->GetArray(SourceCellIdName));
+  CopyCellArrays(input->GetCellData(), input->GetNumberOfCells(), CarriesClip(input),
+    output->GetCellData(), output->GetCellData()->GetArray(SourceCellIdName));
   AddFieldArrays(input, output);
 }
 

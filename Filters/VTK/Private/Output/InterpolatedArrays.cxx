@@ -189,8 +189,8 @@ void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
   PassActiveAttributes(input, output);
 }
 
-void CopyCellArrays(
-  vtkCellData* input, Id numberOfCells, vtkCellData* output, vtkDataArray* sourceCellId)
+void CopyCellArrays(vtkCellData* input, Id numberOfCells, bool isClipped, vtkCellData* output,
+  vtkDataArray* sourceCellId)
 {
   if (input->GetNumberOfArrays() == 0)
   {
@@ -206,7 +206,8 @@ void CopyCellArrays(
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
-    if (IsClipCellArray(array->GetName()))
+    const char* name = array->GetName();
+    if ((name && output->HasArray(name)) || (isClipped && IsClipCellArray(name)))
     {
       continue;
     }

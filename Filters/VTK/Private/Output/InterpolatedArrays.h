@@ -50,10 +50,11 @@ vtkSmartPointer<vtkAbstractArray> PickTuples(vtkAbstractArray* array, vtkIdList*
 void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
   const ClippedMesh& clipped, bool areCut, int threads, vtkPointData* output);
 
-/// Adds cell arrays, copied from the source cell of every output cell. Arrays of an earlier clip
-/// are left out.
-void CopyCellArrays(
-  vtkCellData* input, Id numberOfCells, vtkCellData* output, vtkDataArray* sourceCellId);
+/// Adds cell arrays, copied from the source cell of every output cell. Leaves out arrays of an
+/// earlier clip, and arrays whose names the output has.
+/// @param isClipped  whether the input carries a clip
+void CopyCellArrays(vtkCellData* input, Id numberOfCells, bool isClipped, vtkCellData* output,
+  vtkDataArray* sourceCellId);
 
 /// Interpolates the arrays that both have, except arrays that name points or cells.
 void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output);

@@ -39,7 +39,10 @@ void MovePoints(vtkPolyData* data, vtkDataArray* coordinates)
     RemoveAttribute(attributes, vtkDataSetAttributes::NORMALS);
     RemoveAttribute(attributes, vtkDataSetAttributes::TANGENTS);
   }
-  RemoveClipArrays(data);
+  if (CarriesClip(data)) // else arrays of these names are the user's own
+  {
+    RemoveClipArrays(data);
+  }
   RemoveModes(data);
 }
 

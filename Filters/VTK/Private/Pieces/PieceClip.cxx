@@ -287,6 +287,7 @@ void PieceClip::WriteMesh(vtkPolyData* output) const
       });
     return;
   }
+  const bool isClipped = surface_.Any(CarriesClip(piece));
   vtkNew<vtkPointData> receivedPoints;
   vtkNew<vtkCellData> receivedTriangles;
   SendArrays(surface_.Ranks(), *distribution_, piece, surface_.Triangles(), receivedPoints,
@@ -304,7 +305,7 @@ void PieceClip::WriteMesh(vtkPolyData* output) const
       }
       PassActiveAttributes(atPoints, output->GetPointData());
       CopyCellArrays(receivedTriangles, static_cast<Id>(source_.triangles->triangles.size()),
-        output->GetCellData(), TrianglesOfFans(*clipped_, surface_.Threads()));
+        isClipped, output->GetCellData(), TrianglesOfFans(*clipped_, surface_.Threads()));
       if (piece)
       {
         AddFieldArrays(piece, output);
