@@ -137,3 +137,28 @@ TEST(Parameterization, PointsWithoutPolygonsHaveNoPlaceInTheTexture)
     EXPECT_EQ(std::isnan(texture->GetComponent(k, 1)), k == 5) << k;
   }
 }
+
+/// A face that another one covers has an area, but no place in the map.
+TEST(Parameterization, FacesWithoutAPlaceHaveNoDistortion)
+{
+  TriangleMesh mesh = FlatRectangle(4, 3, 3.0, 2.0);
+  const auto first = static_cast<Id>(mesh.points.size());
+  for (const Id corner : mesh.triangles[7])
+  {
+    mesh.points.push_back(mesh.points[corner]);
+  }
+  mesh.triangles.push_back({ first, first + 1, first + 2 });
+  const auto filter = Flattened(ToPolyData(mesh));
+  vtkCellData* cells = filter->GetOutput()->GetCellData();
+  vtkIdType without = 0;
+  for (vtkIdType cell = 0; cell < filter->GetOutput()->GetNumberOfCells(); ++cell)
+  {
+    const bool hasNone = cells->GetArray("ChartId")->GetComponent(cell, 0) < 0;
+    without += hasNone ? 1 : 0;
+    for (const char* name : { "AngleDistortion", "AreaDistortion" })
+    {
+      EXPECT_EQ(std::isnan(cells->GetArray(name)->GetComponent(cell, 0)), hasNone) << name << cell;
+    }
+  }
+  EXPECT_EQ(without, 1);
+}

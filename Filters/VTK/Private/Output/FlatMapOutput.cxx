@@ -24,6 +24,7 @@ namespace
 
 using Flat = ParameterizationSolver::Flat;
 
+constexpr double NoResult = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* TextureName = "TCoords"; // of float: the PLY writer takes no other type
 
 /// Copies all arrays but ghost flags and ids, which belong to the input.
@@ -93,7 +94,14 @@ void AddFlatMap(
     distortion.row(triangle) << flat.angle[k], flat.area[k];
     chart[mesh.sourceCell[triangle]] = flat.chart[k];
   }
-  const MultiVector means = MeansOnCells(mesh, distortion, cells);
+  MultiVector means = MeansOnCells(mesh, distortion, cells);
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    if (chart[static_cast<std::size_t>(cell)] < 0)
+    {
+      means.row(cell).setConstant(NoResult); // it has an area, but no place in the map
+    }
+  }
   vtkCellData* data = output->GetCellData();
   data->AddArray(MakePointArray("AngleDistortion", means.col(0), VTK_DOUBLE));
   data->AddArray(MakePointArray("AreaDistortion", means.col(1), VTK_DOUBLE));
@@ -102,9 +110,7 @@ void AddFlatMap(
   AddChartNumbers(result.charts, output);
   if (!result.splitsPoints)
   {
-    constexpr double NotAPlace = std::numeric_limits<double>::quiet_NaN();
-    MultiVector texture =
-      MultiVector::Constant(static_cast<Id>(flat.vertexOf.size()), 2, NotAPlace);
+    MultiVector texture = MultiVector::Constant(static_cast<Id>(flat.vertexOf.size()), 2, NoResult);
     for (Id point = 0; point < texture.rows(); ++point)
     {
       const Id vertex = flat.vertexOf[point];
