@@ -147,8 +147,10 @@ def colors_like(colors, given):
     if numpy.issubdtype(given.dtype, numpy.integer):
         limits = numpy.iinfo(given.dtype)
         colors = numpy.round(numpy.clip(colors, limits.min, limits.max))
-    elif given.size and 0 <= given.min() and given.max() <= 1:
-        colors = numpy.clip(colors, 0, 1)
+    else:
+        known = given[~numpy.isnan(given)]
+        if known.size and 0 <= known.min() and known.max() <= 1:
+            colors = numpy.clip(colors, 0, 1)
     return colors.astype(given.dtype)
 
 

@@ -6,6 +6,7 @@ import warnings
 import numpy
 
 import gridfem
+from gridfem import _inputs
 
 OPTIONS = {"Depth": 5}
 
@@ -197,6 +198,10 @@ class Numpy(unittest.TestCase):
             numpy.testing.assert_array_equal(
                 gridfem.poisson(*self.mesh, self.points[:, 2], Depth=depth), expected)
         self.assertEqual(gridfem.spectrum(*self.mesh, 5.0, **OPTIONS)[0].shape, (5,))
+
+    def test_depth_1_counts_as_2(self):
+        numpy.testing.assert_array_equal(gridfem.poisson(*self.mesh, self.points[:, 2], Depth=1),
+                                         gridfem.poisson(*self.mesh, self.points[:, 2], Depth=2))
 
     def test_distances_from_both_poles(self):
         distances = gridfem.distance(*self.mesh, [0, len(self.points) - 1], **OPTIONS)
@@ -414,6 +419,12 @@ class Numpy(unittest.TestCase):
         colors = numpy.where(labels[:, None] == 1, [200.0, 100.0, 50.0], [100.0, 50.0, 100.0])
         stitched = gridfem.stitch(*self.mesh, colors, labels, **OPTIONS)
         self.assertLess(numpy.ptp(stitched, axis=0).max(), 2.0)
+
+    def test_colors_stay_in_range_beside_unknown_ones(self):
+        given = numpy.array([0.2, numpy.nan, 1.0])
+        for result, expected in (([1.2, -0.1, 0.5], [1.0, 0.0, 0.5]), ([1.2, numpy.nan, 0.5], [1.0, numpy.nan, 0.5])):
+            numpy.testing.assert_array_equal(_inputs.colors_like(numpy.array(result), given), expected)
+        numpy.testing.assert_array_equal(_inputs.colors_like(numpy.array([1.2]), given[1:2]), [1.2])
 
     def test_surfaces_that_move(self):
         smooth = gridfem.detail(*self.mesh, 0.0, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)

@@ -26,7 +26,8 @@ void TakeProperty::operator()(EquationOptions& equation) const
 void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options, double leastStabilization)
 {
   constexpr int Largest = std::numeric_limits<int>::max();
-  options.space.depth = properties.Integer("Depth", options.space.depth, 0, MaximumDepth);
+  const int depth = properties.Integer("Depth", options.space.depth, 0, MaximumDepth);
+  options.space.depth = depth == 1 ? 2 : depth; // as the filters do, whose sliders pass 1
   options.space.connectivityAware =
     properties.Switch("ConnectivityAware", options.space.connectivityAware);
   options.space.weldCoincidentPoints =
