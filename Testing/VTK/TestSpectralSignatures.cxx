@@ -74,6 +74,36 @@ TEST_F(SpectralSignaturesFilter, ModesOfTheInputAreTaken)
   EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
 }
 
+/// A triangle is divided at a hanging node if seams are joined. Integrals of values then differ.
+TEST_F(SpectralSignaturesFilter, CarriedModesAreReadAgainIfSeamsAreNoLongerJoined)
+{
+  TriangleMesh mesh = GeodesicSphere(3);
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto middle = static_cast<Id>(mesh.points.size());
+  mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+  mesh.triangles[0] = { a, middle, c };
+  mesh.triangles.push_back({ middle, b, c });
+  const auto surface = WithModes(ToPolyData(mesh), 9, 4);
+  AddPointArray(surface, "f", 1, Wave);
+  surface->GetPointData()->GetArray("f")->SetComponent(middle, 0, 9.0);
+  const auto run = [&](Signatures* signatures, bool welds)
+  {
+    signatures->SetInputData(surface);
+    signatures->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    signatures->SetFilterType(Signatures::LowPass);
+    signatures->SetLastMode(5);
+    signatures->SetWeldCoincidentPoints(welds);
+    signatures->Update();
+    EXPECT_EQ(signatures->GetNumberOfRuns("Solve"), 0);
+    return PointValues(signatures->GetOutput(), "Filtered");
+  };
+  const auto joined = run(filter, true);
+  const auto apart = run(filter, false);
+  EXPECT_GT(Difference(joined, apart), 1e-3);
+  EXPECT_EQ(apart, run(vtkNew<Signatures>(), false));
+  EXPECT_TRUE(messages.errors.empty() && messages.warnings.empty());
+}
+
 TEST_F(SpectralSignaturesFilter, AModeThatIsMissingIsNamed)
 {
   auto data = WithModes(ToPolyData(sphere), 25);

@@ -21,7 +21,7 @@ GivenModes CarriedModes::Update(InputSurface& surface, vtkPolyData* input)
     return {};
   }
   StageKey key;
-  key.Add(surface.IsShared());
+  key.Add(surface.IsShared()).Add(surface.JoinsSeams());
   if (isAsked)
   {
     AddMesh(key, input);

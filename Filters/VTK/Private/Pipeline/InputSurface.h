@@ -61,6 +61,9 @@ public:
   /// The triangles that functions are made on, as Prepare has read them.
   const InputMesh& Triangles() const { return triangles_; }
 
+  /// Whether ReadTriangles joins seams. Ranks together always do.
+  virtual bool JoinsSeams() const { return true; }
+
   /// Reads the triangles of the input without making functions.
   virtual InputMesh ReadTriangles() = 0;
 

@@ -32,6 +32,7 @@ public:
   Field OnReference(Field gradients) const override;
   double LongestSide() const override;
   void SetInput(vtkPolyData* input, vtkPolyData* basisData) override;
+  bool JoinsSeams() const override;
   InputMesh ReadTriangles() override;
   InputArray Find(int index, const std::string& property) override;
   InputArray FindOn(const InputMesh& mesh, int index, const std::string& property) override;
@@ -64,7 +65,6 @@ public:
   ///@}
 
 private:
-  bool JoinsSeams() const;
   void Update(const SurfaceOptions& asked, const Progress& progress);
   void UpdateFunctions(const SurfaceOptions& asked, const Progress& progress);
   void MakeFunctions(const SurfaceOptions& asked, const Progress& progress);
