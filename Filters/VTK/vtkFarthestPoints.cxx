@@ -57,6 +57,7 @@ void vtkFarthestPoints::Compute(vtkInformationVector** inputs, vtkInformationVec
   points->SetActiveScalars("Distance");
   output->GetFieldData()->AddArray(gridfem::MakeIdArray("FarthestPoints", result.points));
   gridfem::AddFieldNumber(output, "Radius", result.radius);
+  gridfem::AddReport(result.report, output);
   this->Warn(result.warnings);
 }
 

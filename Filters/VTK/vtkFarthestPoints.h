@@ -21,6 +21,8 @@
  * - field data: `FarthestPoints` (vtkIdType), the ids in the order in which they were found. There
  *   are fewer than NumberOfPoints if the surface has fewer points.
  * - field data: `Radius` (double, 1), the largest Distance.
+ * - field data: the report of the worst of the distances, as in vtkGeodesicDistance: `Converged`
+ * and the like.
  *
  * Tolerance, NormalStabilization and MaximumIterations have the defaults of vtkGeodesicDistance, so
  * errors have the same size. The filter uses all shared properties but ParameterUnits. On several

@@ -91,6 +91,10 @@ void vtkSurfaceDynamics::Compute(vtkInformationVector** inputs, vtkInformationVe
     &this->Data->Solver.Update(surface, given, options, { 0, state.GetProgress() });
   this->WriteStep(shown, input, vtkPolyData::GetData(outputs, 0));
   this->Warn(this->Data->Solver.Warnings(shown));
+  if (given.start && this->Selection->IsGiven())
+  {
+    this->Warn({ "The Selection has no effect, because the Start Array is the start." });
+  }
 }
 
 void vtkSurfaceDynamics::WriteStep(int shown, vtkPolyData* input, vtkPolyData* output)

@@ -24,7 +24,8 @@ def resident():
 
 
 def make(name, surface):
-    return getattr(simple, name)(Input=surface, Depth=6, **OPTIONS.get(name, {}))
+    return getattr(simple, name)(
+        Input=surface, **plugin.depth_of(name, 6), **plugin.choices(name), **OPTIONS.get(name, {}))
 
 
 def update_all_ports(proxy):

@@ -1,5 +1,6 @@
 // Surface Dynamics as a user of VTK sees it.
 #include "FilterSupport.h"
+#include "Selections.h"
 
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
@@ -182,6 +183,18 @@ TEST(SurfaceDynamicsFilter, TellsWhichFormulaCannotBeRead)
   filter->SetReactionU("log(u - 100)"); // not a number anywhere
   filter->Update();
   ExpectOne(messages.warnings, "have left the range of numbers");
+}
+
+TEST(SurfaceDynamicsFilter, WarnsOfASelectionBesideAStart)
+{
+  auto filter = MakeFilter(vtkSurfaceDynamics::Wave, 1);
+  filter->SetInputDataObject(filter->GetNumberOfInputPorts() - 1, SelectPoints({ 3, 4 }));
+  const Messages messages(filter);
+  filter->Update();
+  EXPECT_TRUE(messages.warnings.empty());
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "xy");
+  filter->Update();
+  ExpectOne(messages.warnings, "The Selection has no effect");
 }
 
 /// After each change the output is the output of a new filter with the same properties.

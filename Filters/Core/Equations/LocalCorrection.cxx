@@ -1,5 +1,7 @@
 #include "Equations/LocalCorrection.h"
 
+#include "Algebra/RowBuilder.h"
+#include "Algebra/SparseCholesky.h"
 #include "Spaces/HatMatrices.h"
 
 #include <algorithm>
@@ -23,25 +25,15 @@ double RoundingOf(double low, double high)
   return 1e-12 * std::max(std::abs(low), std::abs(high));
 }
 
-/// The mean of the neighbors of a hat. Neighbors without a value do not count.
-Eigen::RowVectorXd MeanOfNeighbors(
-  Index hat, const SparseMatrix& stiffness, const MultiVector& values)
+/// The weight of a neighbor in the mean of a hat. It is positive and symmetric.
+/// @param k  the entry of the neighbor in the row of the hat
+double WeightOf(const SparseMatrix& stiffness, Index hat, Id k)
 {
   constexpr double Least = 1e-3; // of the diagonal; obtuse triangles have negative weights
-  const double least = Least * stiffness.Coefficient(hat, hat);
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols());
-  double total = 0.0;
-  for (Id k = stiffness.rowBegin[hat]; k < stiffness.rowBegin[hat + 1]; ++k)
-  {
-    const Index other = stiffness.column[k];
-    if (other != hat && !values.row(other).hasNaN())
-    {
-      const double weight = std::max(-stiffness.value[k], least);
-      sum += weight * values.row(other);
-      total += weight;
-    }
-  }
-  return total > 0.0 ? Eigen::RowVectorXd(sum / total) : Eigen::RowVectorXd(values.row(hat));
+  const Index other = stiffness.column[k];
+  const double diagonal =
+    std::min(stiffness.Coefficient(hat, hat), stiffness.Coefficient(other, other));
+  return std::max(-stiffness.value[k], Least * diagonal);
 }
 
 } // namespace
@@ -203,31 +195,59 @@ std::vector<Index> LocalCorrection::Around(const std::vector<Index>& some, doubl
   return found;
 }
 
-/// Makes each of some values the mean of its neighbors, sweep after sweep. A mean stays between the
-/// values, after any number of sweeps.
-void LocalCorrection::Relax(
+/// Makes each of some values the mean of its neighbors. The means lie between the other values. A
+/// weight that rounding would lose keeps values without any other value around them.
+void LocalCorrection::MakeHarmonic(
   const std::vector<Index>& some, MultiVector& values, const Job& job) const
 {
-  constexpr int MostSweeps = 1000;
-  constexpr double Tolerance = 1e-6; // of the range
+  constexpr double Kept = 1e-12; // weight of the value itself
   const SparseMatrix stiffness = AssembleHatMatrices(mesh_, hats_, {}, job.threads).stiffness;
-  const MultiVector least = Tolerance * (high_ - low_);
-  bool isMoving = true;
-  for (int sweep = 0; sweep < MostSweeps && isMoving; ++sweep)
+  std::vector<Index> number(hats_.Count(), -1);
+  for (std::size_t row = 0; row < some.size(); ++row)
   {
-    job.Check(double(sweep) / MostSweeps);
-    isMoving = false;
-    for (const Index hat : some)
+    number[some[row]] = static_cast<Index>(row);
+  }
+  RowBuilder rows;
+  RowBuilder::Entries entries;
+  MultiVector right(static_cast<Id>(some.size()), values.cols());
+  for (const Index hat : some)
+  {
+    entries.clear();
+    double total = 0.0;
+    auto sum = right.row(number[hat]);
+    sum.setZero();
+    for (Id k = stiffness.rowBegin[hat]; k < stiffness.rowBegin[hat + 1]; ++k)
     {
-      if (values.row(hat).hasNaN())
+      const Index other = stiffness.column[k];
+      if (other == hat || values.row(other).hasNaN())
       {
-        continue;
+        continue; // neighbors without a value do not count
       }
-      const Eigen::RowVectorXd mean = MeanOfNeighbors(hat, stiffness, values);
-      const Eigen::RowVectorXd step = mean - values.row(hat);
-      isMoving = isMoving || (step.array().abs() > least.row(hats_.component[hat]).array()).any();
-      values.row(hat) = mean;
+      const double weight = WeightOf(stiffness, hat, k);
+      total += weight;
+      if (number[other] >= 0)
+      {
+        entries.emplace_back(number[other], -weight);
+      }
+      else
+      {
+        sum += weight * values.row(other);
+      }
     }
+    const double own = total > 0.0 ? Kept * total : 1.0;
+    entries.emplace_back(number[hat], total + own);
+    sum += own * values.row(hat);
+    rows.Append(entries);
+  }
+  job.Check(0.2);
+  const SparseCholesky factor(rows.Finish(static_cast<Index>(some.size())));
+  job.Check(0.8);
+  factor.Solve(right, right, job.threads);
+  for (const Index hat : some)
+  {
+    const Index component = hats_.component[hat];
+    values.row(hat) =
+      right.row(number[hat]).cwiseMax(low_.row(component)).cwiseMin(high_.row(component));
   }
 }
 
@@ -235,9 +255,12 @@ void LocalCorrection::Apply(double reach, MultiVector& atPoints, const Job& job)
 {
   MultiVector values = this->OfHats(atPoints);
   const std::vector<Index> off = this->Clamp(values);
-  if (!off.empty())
+  std::vector<Index> around = this->Around(off, reach);
+  const auto hasNoValue = [&](Index hat) { return values.row(hat).hasNaN(); };
+  around.erase(std::remove_if(around.begin(), around.end(), hasNoValue), around.end());
+  if (!around.empty())
   {
-    this->Relax(this->Around(off, reach), values, job);
+    this->MakeHarmonic(around, values, job);
   }
   for (Id point = 0; point < atPoints.rows(); ++point)
   {

@@ -33,8 +33,8 @@ public:
   /// value, and values beyond the range become the end of the range.
   /// @param reach     along edges, in world units: the size of the functions
   /// @param atPoints  the interpolation, with a row for each point of the mesh; NaN stays
-  /// Cost O(points), and up to 1,000 sweeps over the points that need a correction. Same bits for
-  /// any number of threads. Throws Aborted.
+  /// Cost O(points), and a factorization for the points that need a correction
+  /// (SparseCholesky). Same bits for any number of threads. Throws Aborted.
   void Apply(double reach, MultiVector& atPoints, const Job& job = {}) const;
 
 private:
@@ -43,7 +43,7 @@ private:
   MultiVector OfHats(const MultiVector& atPoints) const;
   std::vector<Index> Clamp(MultiVector& values) const;
   std::vector<Index> Around(const std::vector<Index>& some, double reach) const;
-  void Relax(const std::vector<Index>& some, MultiVector& values, const Job& job) const;
+  void MakeHarmonic(const std::vector<Index>& some, MultiVector& values, const Job& job) const;
 
   const TriangleMesh& mesh_;
   HatFunctions hats_;

@@ -236,6 +236,9 @@ void DiffusionSolver::MakeSteps(const Surface& surface, const Options& options, 
     surface.GetStages().Forget(SolveStage);
   }
   const std::size_t first = std::min(steps.size(), wanted);
+  surface.Require({ double(wanted - first) * double(start_.cols()) *
+                      double(surface.Mesh().points.size()) * sizeof(double),
+    "Number Of Steps " + std::to_string(options.numberOfSteps), "Choose fewer steps." });
   const double share = 1.0 / std::max<double>(1.0, static_cast<double>(wanted - first));
   while (steps.size() < wanted)
   {

@@ -194,9 +194,11 @@ void DynamicsSolver::UpdateStart(
       EquationOptions equation = EndedByTolerance(1e-6);
       equation.multigrid.threads = job.threads;
       L2Projection projection(surface.Space(), equation, job.Part(0.0, 0.3));
-      const Field field = StartField(surface, input, options, job.Part(0.3, 0.6));
+      SolveReport ofBump;
+      const Field field = StartField(surface, input, options, ofBump, job.Part(0.3, 0.6));
       start_ = projection.Solve(surface.Space().LoadOfValues(field, job), {}, job.Part(0.6, 1.0));
       startReport_ = projection.report;
+      KeepWorse(std::move(ofBump), startReport_);
     });
 }
 

@@ -141,7 +141,7 @@ private:
   int refinement_ = 1;                  // of the usual steps
   int substeps_ = 1;                    // from frame to frame
   MultiVector start_;
-  SolveReport startReport_; // of its projection
+  SolveReport startReport_; // of the worse of its solves
   StageKey ofFrames_;
   MultiVector frameStart_;   // the coefficients of the last frame
   int substepsMade_ = 0;     // since the last frame; more than 0 after an abort

@@ -89,8 +89,9 @@ Id SomePoint(const Surface& surface, std::uint64_t seed)
 
 /// Lets heat spread from points along the surface, and scales it to a largest value of 1. The heat
 /// of one point is half as high at the distance width / 2.
-Eigen::VectorXd BumpAround(
-  const Surface& surface, const std::vector<Id>& points, double width, const Job& job)
+/// @param report  gets the report of the heat
+Eigen::VectorXd BumpAround(const Surface& surface, const std::vector<Id>& points, double width,
+  SolveReport& report, const Job& job)
 {
   if (points.empty())
   {
@@ -109,7 +110,7 @@ Eigen::VectorXd BumpAround(
   HeatDiffusion heat(std::make_shared<const HeatEquation>(
                        surface.SharedSpace(), options, HeldRows{}, job.Part(0.0, 0.5)),
     space.LoadOfValues(marked, job));
-  heat.Advance(job.Part(0.5, 1.0));
+  report = heat.Advance(job.Part(0.5, 1.0));
   const Eigen::VectorXd bump = space.ValuesAtPoints(heat.Coefficients(), job).cwiseMax(0.0);
   const double largest = bump.maxCoeff();
   return largest > 0.0 ? Eigen::VectorXd(bump / largest) : bump;
@@ -151,8 +152,9 @@ void Disturb(const Eigen::VectorXd& bump, const DynamicsSolver::Input& input,
 } // namespace
 
 Field StartField(const Surface& surface, const DynamicsSolver::Input& input,
-  const DynamicsSolver::Options& options, const Job& job)
+  const DynamicsSolver::Options& options, SolveReport& report, const Job& job)
 {
+  report = SolveReport::Solved();
   if (input.start)
   {
     return CompletedStart(surface, input, options);
@@ -165,14 +167,14 @@ Field StartField(const Surface& surface, const DynamicsSolver::Input& input,
     static_cast<Id>(mesh.points.size()), NumberOfUnknowns(options, input.reactions));
   if (input.disturbed)
   {
-    Disturb(BumpAround(surface, input.disturbed.find().points, length, job), input, options,
+    Disturb(BumpAround(surface, input.disturbed.find().points, length, report, job), input, options,
       field.values);
     return field;
   }
   if (!IsReaction(options.model))
   {
-    Disturb(
-      BumpAround(surface, { SomePoint(surface, seed) }, length, job), input, options, field.values);
+    Disturb(BumpAround(surface, { SomePoint(surface, seed) }, length, report, job), input, options,
+      field.values);
     return field;
   }
   const ReactionSystem system = SystemOf(options, input.reactions);

@@ -62,6 +62,7 @@ void FarthestPointsSolver::Restart(const Surface& surface, const Options& option
   next_ = FirstPoint(surface.Mesh(), options.firstPointId);
   const std::vector<char> isReached = surface.PointsWithFunctions();
   result_ = {};
+  result_.report = SolveReport::Solved();
   result_.nearest.assign(isReached.size(), -1);
   solveWarnings_.clear();
   distance_.resize(static_cast<Id>(isReached.size()), 1);
@@ -74,7 +75,7 @@ void FarthestPointsSolver::Restart(const Surface& surface, const Options& option
 void FarthestPointsSolver::AddPoint(
   const Surface& surface, const SolveOptions& solve, const Progress& progress)
 {
-  const DistanceField field = method_->From({ next_ }, solve, surface.MakeJob(progress));
+  DistanceField field = method_->From({ next_ }, solve, surface.MakeJob(progress));
   for (std::size_t point = 0; point < field.atPoints.size(); ++point)
   {
     double& least = distance_(static_cast<Id>(point), 0);
@@ -91,6 +92,7 @@ void FarthestPointsSolver::AddPoint(
   {
     solveWarnings_ = WarningsOf(field, solve.tolerance);
   }
+  KeepWorse(std::move(field.report), result_.report);
   this->FindNext(surface.LongestSide());
 }
 

@@ -37,6 +37,7 @@ public:
     MultiVector atPoints;    // distance from the nearest of them, world units; NaN: there is none
     std::vector<Id> nearest; // nearest found point, per mesh point; -1: none is reachable
     double radius = 0.0;     // the largest distance
+    SolveReport report;      // of the worst distance
     std::vector<std::string> warnings;
   };
 

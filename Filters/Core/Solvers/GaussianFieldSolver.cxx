@@ -290,6 +290,10 @@ void GaussianFieldSolver::UpdateField(
       resolutionWarnings_ = WarningsOfResolution(
         range, std::sqrt(surface.Area() / double(surface.Space().NumberOfFunctions(0))));
       deviationsOfMeans_ = field_->DeviationsOfMeans(surface.Threads());
+      const auto isInfinite = [](double deviation) { return std::isinf(deviation); };
+      deviationsOfMeans_.erase( // components without an area
+        std::remove_if(deviationsOfMeans_.begin(), deviationsOfMeans_.end(), isInfinite),
+        deviationsOfMeans_.end());
     });
 }
 

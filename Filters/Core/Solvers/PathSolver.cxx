@@ -1,6 +1,7 @@
 #include "Solvers/PathSolver.h"
 
 #include "Base/Errors.h"
+#include "Base/SortEachOnce.h"
 #include "Distance/NearestSource.h"
 #include "Solvers/SolveOnMesh.h"
 
@@ -236,8 +237,8 @@ const PathSolver::Result& PathSolver::Update(
       {
         this->Connect(JoinedIds(ends.sources, ends.targets), type, work.Part(0.4, 1.0));
       }
-      std::sort(result_.unreached.begin(), result_.unreached.end());
       result_.warnings = WarningsOfUnreached(result_.unreached, result_.paths.size());
+      SortEachOnce(result_.unreached);
       for (const std::string& warning : WarningsOfLength(result_.paths, mostWindows_))
       {
         result_.warnings.push_back(warning);

@@ -377,6 +377,23 @@ TEST(DiffusionSolver, EachOptionChangesTheResultAsInANewSolver)
   }
 }
 
+/// Every step is kept, so all of them have to fit into memory.
+TEST(DiffusionSolver, RefusesStepsThatDoNotFitIntoMemory)
+{
+  TriangleMesh sphere = GeodesicSphere(4);
+  sphere.points.resize(2000000, Vec3::Zero());
+  const auto mesh = std::make_shared<const TriangleMesh>(std::move(sphere));
+  try
+  {
+    DiffusionSolver::Solve(mesh, HeightOn(*mesh), For(0.1, 10000), InWorldUnits(3)); // 160 GB
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("fewer steps"), std::string::npos) << error.what();
+  }
+}
+
 TEST(DiffusionSolver, RefusesNoTimeAndAnotherNumberOfComponents)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(8));

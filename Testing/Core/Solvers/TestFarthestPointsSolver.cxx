@@ -76,6 +76,18 @@ TEST(FarthestPointsSolver, PointsAreApartByTheRadius)
   }
 }
 
+/// The report is that of the worst distance, also after points that go on from others.
+TEST(FarthestPointsSolver, ReportsADistanceThatHasNotConverged)
+{
+  FarthestPointsSolver::Options options = Points(3);
+  EXPECT_TRUE(FarthestPointsSolver::Solve(Sphere, options, AtDepth4).report.converged);
+  options.equation.solve.maximumIterations = 1;
+  const FarthestPointsSolver::Result result =
+    FarthestPointsSolver::Solve(Sphere, options, AtDepth4);
+  EXPECT_FALSE(result.report.converged);
+  EXPECT_FALSE(result.warnings.empty());
+}
+
 TEST(FarthestPointsSolver, MoreAndFewerPointsAreThoseOfOneShot)
 {
   Stages stages;

@@ -174,6 +174,12 @@ TEST(PathSolver, NamesTargetsOnOtherComponents)
   EXPECT_EQ(result.paths.front().target, 5);
   EXPECT_EQ(result.unreached, std::vector<Id>{ other });
   ExpectOne(result.warnings, std::to_string(other));
+  // Two pairs have no path, and one point is out of reach.
+  const PathSolver::Result pairs =
+    PathSolver::Solve(two, Given({ 0, 5, other }, {}), Type(PathType::AllPairs));
+  EXPECT_EQ(pairs.paths.size(), 1u);
+  EXPECT_EQ(pairs.unreached, std::vector<Id>{ other });
+  ExpectOne(pairs.warnings, "2 of 3");
 }
 
 /// A search that gives up leaves paths that may be longer, and a warning with their number.
