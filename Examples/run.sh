@@ -7,9 +7,9 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
   cat << 'HELP'
 Usage: Examples/run.sh [MESH] [--depth N] [--modes K] [--output DIR]
 
-Installs the Debian packages that are missing (as root or with sudo), builds into build/, and runs
-the main job on MESH (.ply .obj .stl .vtp .vtk), or without one on a trefoil-knot tube whose strands
-nearly touch. The results and pictures of the eigenfunctions go to DIR (default: output/).
+Installs the Debian packages that are missing (as root or with sudo), builds the programs, the plugin
+and the Python package into build/, and runs the main job on MESH (.ply .obj .stl .vtp .vtk), or without
+one on a trefoil-knot tube whose strands nearly touch. The results and pictures of the eigenfunctions go to DIR (default: output/).
 
   --depth N     2^N cells along the longest side, 2 to 14
   --modes K     number of eigenfunctions
@@ -35,7 +35,7 @@ while [ $# -gt 0 ]; do
 done
 
 InstallMissing "${BUILD_PACKAGES[@]}"
-BuildTree gridfem_main_job
+BuildTree "gridfem_main_job GridFEM vtkGridFEMFiltersPython" # with the plugin and the Python package
 # Threads that spin while they wait would starve each other on a busy machine.
 export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
 "$BUILD/bin/gridfem_main_job" "${arguments[@]}" --output "$output"

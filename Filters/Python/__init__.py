@@ -6,9 +6,9 @@
 `points` is an array of N rows with three coordinates. `cells` is an array of M rows. Each row has the
 point ids of a polygon: a triangle, or any other number of corners. `gridfem.arrays(mesh)` returns both
 arrays for a mesh of PyVista, trimesh or meshio. Values with N rows belong to points, values with M rows
-to cells. Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace="HatFunctions"`, are
+to cells. Keyword arguments in CamelCase, such as `Depth=8` or `FunctionSpace="HatFunctions"`, are
 properties of the filter that does the work. The pages in Plugin/Documentation describe them. A choice is
-a name or its number. A value out of range raises Error.
+a name or its number. A name has no spaces and hyphens. A value out of range raises Error.
 
 A mesh can have as many cells as points, such as a torus of quads. Values with this number of rows then
 count as values at points, and the function warns. Pass `on="cells"` for values on cells. Pass
@@ -40,7 +40,7 @@ except ImportError:
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
            "distance_matrix", "divergence", "dynamics", "expand", "farthest_points", "flow",
-           "gaussian_field", "gradient", "interpolate", "krige", "parameterize", "path", "poisson",
+           "functional_map", "gaussian_field", "gradient", "interpolate", "krige", "parameterize", "path", "poisson",
            "signatures", "signed_distance", "spectrum", "stitch", "surrogates"]
 
 
@@ -67,7 +67,8 @@ class _Results:
             raise Error(" ".join([f"The result has no {name}.", *self.messages])) from None
 
 
-def _solve(name, points, cells, given, properties, sources=(), on=None, observed=(), reactions=()):
+def _solve(name, points, cells, given, properties, sources=(), on=None, observed=(), reactions=(),
+           reference=None, partners=()):
     points, cells = _inputs.checked(points, cells)
     properties = _inputs.chosen(properties)
     arrays = {}
@@ -81,7 +82,8 @@ def _solve(name, points, cells, given, properties, sources=(), on=None, observed
                           "warning.", RuntimeWarning, stacklevel=3)
         arrays[array] = values, place != "cells"
     try:
-        results, messages = _solve_numbered(name, points, cells, arrays, properties, sources, observed, reactions)
+        results, messages = _solve_numbered(name, points, cells, arrays, properties, sources, observed, reactions,
+                                           reference, partners)
     except Error as error:
         raise Error(in_words_of_functions(name, str(error), arrays)) from None
     messages = [in_words_of_functions(name, message, arrays) for message in messages]
@@ -171,8 +173,8 @@ def surrogates(points, cells, values, count=10, number=100, **properties):
 
     Returns an array (count, N), or (count, N, C) for values with C columns. The first `number` modes are
     taken in groups of 3, 5, 7 and so on. In each group the maps have the energy of the values, and the same
-    products between the columns. What no mode describes is missing: `expand` tells how much. Another Seed
-    gives other maps.
+    products between the columns. The part of the values that no mode describes is missing. `expand` tells
+    its size. Another Seed gives other maps.
     """
     results = _solve("SpectralSignatures", points, cells, {"values": values},
                      {"NumberOfModes": number, "FilterType": "Surrogates", "NumberOfSurrogates": count,
@@ -266,11 +268,11 @@ def path(points, cells, ids, closed=False, **properties):
     """Computes the shortest path along the surface through the points with the given ids, in their order.
 
     closed: the path returns from the last point to the first. Between two given points the path is the
-    shortest, exactly on the triangles. If the search on a very large mesh gives up, only no path nearby is
-    shorter, and a RuntimeWarning tells so. Returns arrays of the shapes (K, 3), (K, 3), (K, 3):
-    places along the path, the corners of the triangle around each place, and their weights. The length is
-    `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`. Values at the points of the mesh become
-    `(weights * values[corners]).sum(axis=1)` along the path.
+    shortest, exactly on the triangles. If the search on a very large mesh gives up, a RuntimeWarning says so.
+    Then no path nearby is shorter, but a path elsewhere may be. Returns arrays of the shapes (K, 3), (K, 3),
+    (K, 3): places along the path, the corners of the triangle around each place, and their weights. The
+    length is `numpy.linalg.norm(numpy.diff(places, axis=0), axis=1).sum()`. Values at the points of the mesh
+    become `(weights * values[corners]).sum(axis=1)` along the path.
     """
     ids = _inputs.ids("ids", ids)
     if ids.size < 2:
@@ -296,6 +298,28 @@ def parameterize(points, cells, **properties):
     results = _solve("Parameterization", points, cells, {}, properties)
     triangles, origin = (results[name].astype(numpy.int64) for name in ("FlatTriangles", "SurfacePoint"))
     return results["FlatPoints"], triangles, origin, results["Distortion"]
+
+
+def functional_map(points, cells, reference_points, reference_cells, landmarks=(), number=100, **properties):
+    """Maps the surface to a reference of about the same shape, by `number` modes of both.
+
+    landmarks: pairs of ids of corresponding points, (K, 2): on the surface and on the reference. Returns
+    five arrays. The first has the corresponding place on the reference for each point (N, 3). The next two
+    have the points of the reference around this place (N, 3) and their weights (N, 3). Values at the points
+    of the reference become `(weights * values[corners]).sum(axis=1)` on the surface. The fourth has the
+    mismatch of the modes (N,): 0 for surfaces that differ only by bending, about 1 for unrelated ones. The
+    last is the matrix of the map between modes. Points that no cell uses have NaN, and -1 in the corners.
+    A RuntimeWarning tells if the surfaces match in several ways, or not at all.
+    """
+    pairs = _inputs.ids("landmarks", numpy.asarray(landmarks, dtype=object).ravel() if len(landmarks) else ())
+    if len(landmarks) and numpy.shape(landmarks)[1:] != (2,):
+        raise Error(f"landmarks must have two columns; their shape is {numpy.shape(landmarks)}")
+    reference = _inputs.checked(reference_points, reference_cells)
+    results = _solve("FunctionalMap", points, cells, {}, {"NumberOfModes": number, **properties}, pairs[::2],
+                     reference=reference, partners=pairs[1::2])
+    corners = results["ReferenceCorners"].astype(numpy.int64)
+    return (results["ReferencePlace"], corners, results["ReferenceWeights"], results["Mismatch"],
+            results["FunctionalMap"])
 
 
 def diffuse(points, cells, values, time=None, held=None, source=None, fwhm=None, sigma=None, on=None,
@@ -345,9 +369,10 @@ def gaussian_field(points, cells, distance, number=1, ids=(), values=(), noise=0
     distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. Smoothness
     chooses between rough and smooth samples. Another Seed gives other samples. With Statistics the result
     has two columns: mean and standard deviation of the samples. values: observed values at the points with
-    these ids. Every sample agrees with them, and `krige` predicts from them. With Statistics the result then
-    has the prediction and the standard deviation of its error. noise: the standard deviation of the errors
-    of the observations. Several observations of one point count each.
+    these ids. Every sample then agrees with the observations, up to `noise`, and `krige` predicts from the
+    observations. With Statistics the result then has the prediction and the standard deviation of its error.
+    noise: the standard deviation of the errors of the observations. Several observations of one point count
+    each.
     """
     return _random_field(points, cells, {"Range": distance, "NumberOfSamples": number,
                                          "ObservationNoise": noise, **properties}, ids, values)["Samples"]
@@ -357,16 +382,17 @@ def krige(points, cells, ids, values, distance, noise=0.0, number=100, **propert
     """Predicts a field everywhere from observed values at the points with the given ids (kriging).
 
     distance: the Range in ParameterUnits. Values farther apart hardly depend on each other. noise: the
-    standard deviation of the errors of the values. Several values of one point count each. Pass
-    StandardDeviation, that of the field (default 1): the returned standard deviation is proportional to
-    it, and noise is weighed against it.
+    standard deviation of the errors of the values. Several values of one point count each. Pass the
+    StandardDeviation of the field (default 1). The returned standard deviation is proportional to
+    StandardDeviation, and noise is weighed against it.
 
     Returns five results. The first two are the prediction (N) and the standard deviation of its error (N),
     estimated from `number` samples. The third has the leave-one-out errors (K): a value minus its
     prediction from all others, or the mean for several values of one point. The fourth is the logarithm of
-    the likelihood of the values. It compares distances: the most likely one suits the values. The fifth is
-    the leave-one-out ratio: the root mean square of the errors, each divided by its expected standard
-    deviation. It is near 1 if StandardDeviation, distance and noise suit the values.
+    the likelihood of the values. Compare it for several distances: the distance with the largest likelihood
+    suits the values best. The fifth is the leave-one-out ratio: the root mean square of the errors, each
+    divided by its expected standard deviation. It is near 1 if StandardDeviation, distance and noise suit
+    the values.
     """
     if numpy.size(ids) == 0:
         raise Error("there are no observations")
