@@ -29,7 +29,15 @@ using gridfem::Coloring;
 using gridfem::ViewsOf;
 using gridfem::Watch;
 
-/// The array of a hint in port 0 of the filter.
+/// The port of a hint.
+int PortOf(vtkPVXMLElement* hint)
+{
+  int port = 0;
+  hint->GetScalarAttribute("port", &port); // stays 0 without it
+  return port;
+}
+
+/// The array of a hint in its port of the filter.
 struct Found
 {
   vtkPVArrayInformation* array = nullptr; // null: the filter has no such array
@@ -59,7 +67,7 @@ bool AreColors(vtkPVArrayInformation* array, const std::string& direct)
 Found Find(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
 {
   const std::string name = gridfem::ResultName(filter, hint->GetAttributeOrEmpty("array"));
-  vtkPVDataInformation* data = filter->GetDataInformation(0);
+  vtkPVDataInformation* data = filter->GetDataInformation(PortOf(hint));
   for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkPVArrayInformation* array =
@@ -74,10 +82,10 @@ Found Find(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
 
 using ArrayKey = std::pair<int, std::string>; // association and name
 
-/// Adds the arrays that port 0 has now.
-void NoteArrays(vtkSMSourceProxy* filter, std::set<ArrayKey>& noted)
+/// Adds the arrays that a port has now.
+void NoteArrays(vtkSMSourceProxy* filter, int port, std::set<ArrayKey>& noted)
 {
-  vtkPVDataInformation* data = filter->GetDataInformation(0);
+  vtkPVDataInformation* data = filter->GetDataInformation(port);
   for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkPVDataSetAttributesInformation* all =
@@ -90,15 +98,16 @@ void NoteArrays(vtkSMSourceProxy* filter, std::set<ArrayKey>& noted)
   }
 }
 
-/// Whether the filter once had the array that colors a picture. A picture has arrays of its own,
-/// such as the colors of blocks.
-bool HasLostItsArray(vtkSMProxy* shown, vtkSMSourceProxy* filter, const std::set<ArrayKey>& noted)
+/// Whether a port once had the array that colors a picture. A picture has arrays of its own, such
+/// as the colors of blocks.
+bool HasLostItsArray(
+  vtkSMProxy* shown, vtkSMSourceProxy* filter, int port, const std::set<ArrayKey>& noted)
 {
   const vtkSMPropertyHelper colors(shown, "ColorArrayName");
   const char* name = colors.GetInputArrayNameToProcess();
   const int association = colors.GetInputArrayAssociation();
   return noted.count({ association, name ? name : "" }) > 0 &&
-         !filter->GetDataInformation(0)->GetArrayInformation(name, association);
+         !filter->GetDataInformation(port)->GetArrayInformation(name, association);
 }
 
 bool IsColoredBy(vtkSMProxy* shown, vtkPVArrayInformation* array)
@@ -151,14 +160,14 @@ void HideColorBar(const vtkWeakPointer<vtkSMProxy>& shown, vtkSMViewProxy* view)
 }
 
 /// ParaView shows a color bar before or after it has drawn the data for the first time.
-void ShowDirectly(vtkSMProxy* shown, const vtkWeakPointer<vtkSMSourceProxy>& filter)
+void ShowDirectly(vtkSMProxy* shown, const vtkWeakPointer<vtkSMSourceProxy>& filter, int port)
 {
   Watch(shown, vtkCommand::UpdateDataEvent,
-    [filter](void*)
+    [filter, port](void*)
     {
       if (filter)
       {
-        for (const auto& [view, drawn] : ViewsOf(filter, 0))
+        for (const auto& [view, drawn] : ViewsOf(filter, port))
         {
           vtkSMPropertyHelper(drawn, "MapScalars", true).Set(0);
           drawn->UpdateVTKObjects();
@@ -181,7 +190,8 @@ void gridfem::ColorFirst(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
       {
         return false;
       }
-      const auto views = ViewsOf(filter, 0);
+      const int port = PortOf(hint);
+      const auto views = ViewsOf(filter, port);
       for (const auto& [view, shown] : views)
       {
         if (shown->GetProperty("ColorArrayName") && !Coloring::GetUsingScalarColoring(shown))
@@ -192,7 +202,7 @@ void gridfem::ColorFirst(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
       if (found.areColors && views.empty())
       {
         const vtkWeakPointer<vtkSMSourceProxy> kept = filter;
-        WhenShown(kept, 0, [kept](vtkSMProxy* shown) { ShowDirectly(shown, kept); });
+        WhenShown(kept, port, [kept, port](vtkSMProxy* shown) { ShowDirectly(shown, kept, port); });
       }
       return true;
     });
@@ -203,14 +213,15 @@ void gridfem::ReplaceLostColors(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
   Watch(filter, vtkCommand::UpdateDataEvent,
     [filter, hint, noted = std::set<ArrayKey>(), were = std::optional<bool>()](void*) mutable
     {
+      const int port = PortOf(hint);
       const Found found = HasWindow() ? Find(filter, hint) : Found();
       if (found.array)
       {
         const bool isOther = were && *were != found.areColors;
-        for (const auto& [view, shown] : ViewsOf(filter, 0))
+        for (const auto& [view, shown] : ViewsOf(filter, port))
         {
           if (Coloring::GetUsingScalarColoring(shown) &&
-              (HasLostItsArray(shown, filter, noted) ||
+              (HasLostItsArray(shown, filter, port, noted) ||
                 (isOther && IsColoredBy(shown, found.array))))
           {
             ColorBy(view, shown, found);
@@ -218,7 +229,7 @@ void gridfem::ReplaceLostColors(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
         }
         were = found.areColors;
       }
-      NoteArrays(filter, noted);
+      NoteArrays(filter, port, noted);
       return false;
     });
 }

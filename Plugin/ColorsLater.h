@@ -1,4 +1,4 @@
-// Colors port 0 of a filter by an array that it gets later than the first picture, as the hint
+// Colors a port of a filter by an array that it gets later than the first picture, as the hint
 // ColorsLater of its XML asks for (FirstApply.h).
 #ifndef GridFEM_ColorsLater_h
 #define GridFEM_ColorsLater_h

@@ -22,10 +22,11 @@
 //   FitsCameras: the first Apply fits the camera to port 0 and to this port, which lies beside it.
 //   The camera is fitted again when the filter is deleted.
 //
-//   ColorsLater: the array colors port 0 as soon as port 0 has it, or has lost the array that
-//   colored it. ParaView looks only once, when it first shows a filter, and the user may choose
-//   arrays later. The user's own coloring stays. With direct="bytes", three or four bytes are shown
-//   directly as colors, without a bar. With direct="fractions", so are numbers from 0 to 1.
+//   ColorsLater: the array colors port 0, or the port in the attribute `port`, as soon as the port
+//   has it, or has lost the array that colored it. ParaView looks only once, when it first shows a
+//   filter, and the user may choose arrays later. The user's own coloring stays. With
+//   direct="bytes", three or four bytes are shown directly as colors, without a bar. With
+//   direct="fractions", so are numbers from 0 to 1.
 //
 // The XML of a chart has the hint:
 //

@@ -24,6 +24,7 @@ STATES = {
     "farthest": ("Points", "Distance", 0),
     "gradient": ("Parts", "StreamFunction", 0),
     "interpolation": ("Biharmonic", "Interpolated", 0),
+    "matching": ("Matched", "Mismatch", 0),
     "modes": ("LaplaceSpectrum1", "Mode", 19),
     "octree": ("Basis", "BasisFunction", 0),
     "flatten": ("Conformal", "TCoords", 0),

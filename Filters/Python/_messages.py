@@ -5,6 +5,7 @@ import re
 # The arguments of functions, by the filters and the labels of the properties that they set.
 _ARGUMENTS = {
     "FarthestPoints": {"Number Of Points": "number"},
+    "FunctionalMap": {"Number Of Modes": "number", "Landmarks": "landmarks"},
     "GaussianField": {"Number Of Samples": "number", "Range": "distance", "Observation Noise": "noise"},
     "GeodesicDistance": {"Source Point Ids": "sources"},
     "GeodesicPaths": {"Source Point Ids": "ids"},

@@ -163,11 +163,13 @@ def _set(algorithm, name, key, value):
         raise Error(f"{key} = {value!r}: {error}") from None
 
 
-def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=(),
+          reference=None, partners=()):
     """Returns the arrays that the filter gives, by their names, and its warnings.
 
     arrays: values and whether they are at points, by name. sources: ids of points. observed: the
     values of Gaussian Field at these points. reactions: the formulas of Surface Dynamics.
+    reference: points and cells of the reference of Functional Map. partners: its points for the sources.
     """
     algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
     messages = []
@@ -191,6 +193,10 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=(), reac
     if name == "GaussianField":
         for point, value in zip(sources, observed):
             algorithm.AddObservation(int(point), float(value))
+    elif name == "FunctionalMap":
+        for point, partner in zip(sources, partners):
+            algorithm.AddLandmark(int(point), int(partner))
+        algorithm.SetInputData(2, surface(*reference))
     else:
         for point in sources:
             algorithm.AddSourcePointId(int(point))

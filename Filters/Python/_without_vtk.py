@@ -53,11 +53,13 @@ def triangulate(corners):
     return _core.triangulate(corners)
 
 
-def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=()):
+def solve(name, points, cells, arrays, properties, sources=(), observed=(), reactions=(),
+          reference=None, partners=()):
     """Returns the arrays that the filter of this name would give, by their names, and warnings.
 
     arrays: values and whether they are at points, by name. sources: ids of points. observed: the
     values of Gaussian Field at these points. reactions: the formulas of Surface Dynamics.
+    reference: points and cells of the reference of Functional Map. partners: its points for the sources.
     """
     for key in properties.keys() - _core.properties(name).keys():
         raise Error(f"{name} has no property {key}")
@@ -69,7 +71,8 @@ def solve(name, points, cells, arrays, properties, sources=(), observed=(), reac
             numbers,
             [int(source) for source in sources],
             [float(value) for value in observed],
-            rates(reactions) if reactions else None, len(reactions))
+            rates(reactions) if reactions else None, len(reactions),
+            reference, [int(partner) for partner in partners])
     except MemoryError:
         raise Error(_out_of_memory(name, properties)) from None
     except ValueError as error:

@@ -83,6 +83,28 @@ class Engines(unittest.TestCase):
     def test_signatures(self):
         self.compare(lambda g, p, c, **o: g.signatures(p, c, 10, NumberOfScales=3, **o))
 
+    def test_functional_map(self):
+        points, triangles = self.meshes["ellipsoid"]
+        bumps = 1 + 0.8 * numpy.exp(-6 * ((points - (0.6, 0.7, 0.4)) ** 2).sum(axis=1))
+        surface = points * bumps[:, None]
+        reference = 2 * surface + 1
+        for landmarks in ((), [(3, 3), (9, 9)]):
+            theirs, ours = (g.functional_map(surface, triangles, reference, triangles, landmarks, 20, Depth=4)
+                            for g in (gridfem, self.core))
+            for a, b in zip(theirs, ours):
+                self.assertEqual((a.dtype, a.shape), (b.dtype, b.shape))
+            places, corners, weights, mismatch, matrix = ours
+            numpy.testing.assert_allclose(places, theirs[0], atol=1e-6)
+            numpy.testing.assert_allclose((weights[:, :, None] * reference[corners]).sum(axis=1), places, atol=1e-12)
+            self.assertLess(numpy.linalg.norm(places - reference, axis=1).mean(), 0.02)
+            self.assertLess(mismatch.max(), 0.1)
+            self.assertGreaterEqual(len(matrix), 20)
+        for package in (gridfem, self.core):
+            for landmarks, message in (([1, 2], "two columns"), ([(1, 10 ** 6)], "landmarks has the point 1000000"),
+                                       ([(0.5, 1)], "there is 0.5")):
+                with self.assertRaisesRegex(package.Error, message):
+                    package.functional_map(surface, triangles, reference, triangles, landmarks, Depth=4)
+
     def test_expansions_and_surrogates(self):
         for columns in (0, slice(0, 2)):
             self.compare(lambda g, p, c, **o: g.expand(p, c, p[:, columns], 12, **o))
@@ -239,7 +261,7 @@ class Engines(unittest.TestCase):
 
     def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
         module = sys.modules["gridfem_core._without_vtk"]._core
-        for name in ("FarthestPoints", "GaussianField", "GeodesicDistance", "GeodesicPaths",
+        for name in ("FarthestPoints", "FunctionalMap", "GaussianField", "GeodesicDistance", "GeodesicPaths",
                      "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "Parameterization", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",

@@ -62,6 +62,7 @@ STARTS = {
     "ConnectivityAwareBasis": [{}],
     "ClipToOctree": [{}],
     "FarthestPoints": [{"NumberOfPoints": 4}],
+    "FunctionalMap": [{"NumberOfModes": 12}],
     "GaussianField": [{"Range": 0.5, "NumberOfSamples": 3},
                       {"Range": 0.5, "NumberOfSamples": 3, "Statistics": 1},
                       {"Range": 0.5, "NumberOfSamples": 3, "ObservationArray": [POINTS, "p_f"],

@@ -14,6 +14,7 @@ COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
     "FarthestPoints": ("POINTS", "Distance"),
+    "FunctionalMap": ("POINTS", "MatchingColors"),
     "GaussianField": ("POINTS", "Sample000"),
     "GeodesicDistance": ("POINTS", "Distance"),
     "GeodesicPaths": (None, ""),  # the lines have the colors
@@ -36,7 +37,7 @@ SIGNED = {"PrincipalCurvatures": ("MeanCurvature", "GaussianCurvature", "ShapeIn
                                   "MaximumCurvature"),
           "SurfaceGradient": ("Laplacian",)}
 
-SHOWN_PORTS = {"ClipToOctree": {0, 2}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1, 2},
+SHOWN_PORTS = {"ClipToOctree": {0, 2}, "FunctionalMap": {0, 1}, "GeodesicPaths": {0, 1}, "LaplaceSpectrum": {0, 1, 2},
                "MeanCurvatureFlow": {0, 1, 2}, "Parameterization": {0, 1}}
 
 
@@ -53,7 +54,7 @@ class FirstApply(unittest.TestCase):
         if name in plugin.CHOICES:
             surface = plugin.with_arrays(surface)
         proxy = getattr(simple, name)(
-            Input=surface, **plugin.CHOICES.get(name, {}), **properties)
+            Input=surface, **plugin.choices(name), **properties)
         for prop, value in (("Depth", DEPTH), ("NumberOfModes", 16)):
             if prop in proxy.ListProperties():
                 proxy.SetPropertyWithName(prop, value)

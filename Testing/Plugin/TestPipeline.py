@@ -40,13 +40,14 @@ class TestPipeline(unittest.TestCase):
             "LaplaceSpectrum": ["vtkTable", "vtkTable"],
             "MeanCurvatureFlow": ["vtkTable", "vtkTable"],
             "SpectralSignatures": ["vtkTable"],
+            "FunctionalMap": ["vtkPolyData"],
             "GeodesicPaths": ["vtkPolyData"],
             "Parameterization": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
                 proxy = getattr(simple, name)(
-                    Input=surface, **plugin.depth_of(name, DEPTH), **plugin.CHOICES.get(name, {}))
+                    Input=surface, **plugin.depth_of(name, DEPTH), **plugin.choices(name))
                 self.assertEqual(outputs(proxy), ["vtkPolyData", *further.get(name, [])])
                 self.assertGreater(plugin.data(proxy).GetNumberOfCells(), 0)
 
@@ -69,7 +70,7 @@ class TestPipeline(unittest.TestCase):
         few = {"LaplaceSpectrum": {"NumberOfModes": 8}, "SpectralSignatures": {"NumberOfModes": 8}}
         last = plugin.with_arrays(simple.ClipToOctree(Input=self.surface, Depth=DEPTH))
         for name in [name for name in plugin.PROXIES if name != "ClipToOctree"]:
-            last = getattr(simple, name)(Input=last, **plugin.CHOICES.get(name, {}), **few.get(name, {}))
+            last = getattr(simple, name)(Input=last, **plugin.choices(name), **few.get(name, {}))
             self.assertGreater(plugin.data(last).GetNumberOfPoints(), 0, name)
         arrays = plugin.data(last).GetPointData()
         for array in ("Distance", "Interpolated", "Diffused", "Solution", "StitchedColors"):

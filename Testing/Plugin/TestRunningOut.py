@@ -24,7 +24,7 @@ OPTIONS = {
 class TestRunningOut(unittest.TestCase):
     def make(self, name):
         sphere = simple.Sphere(Radius=1.0, ThetaResolution=120, PhiResolution=120)
-        options = {**plugin.depth_of(name, 5), **plugin.CHOICES.get(name, {}), **OPTIONS.get(name, {})}
+        options = {**plugin.depth_of(name, 5), **plugin.choices(name), **OPTIONS.get(name, {})}
         proxy = getattr(simple, name)(
             Input=plugin.with_arrays(sphere), **options)
         algorithm = proxy.GetClientSideObject()

@@ -59,7 +59,7 @@ def build():
     types = {proxy.SMProxy.GetXMLName() for proxy in made.values()}
     for name in sorted(set(plugin.PROXIES) - types):
         made[name] = getattr(simple, name)(
-            Input=labels, **plugin.depth_of(name, 4), **plugin.CHOICES.get(name, {}))
+            Input=labels, **plugin.depth_of(name, 4), **plugin.choices(name))
     for name, proxy in made.items():
         simple.RenameSource(name, proxy)
     return list(made)

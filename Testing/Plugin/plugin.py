@@ -19,8 +19,9 @@ PROXIES = tuple(_PANELS)
 # Facts about single filters, for all tests. A filter without an entry needs none.
 
 # Filters that compute nothing without an array: properties that choose one, for a surface with the
-# point arrays `f`, any numbers, and `label`, whole numbers.
+# point arrays `f`, any numbers, and `label`, whole numbers. Functional Map takes another surface.
 CHOICES = {
+    "FunctionalMap": {},
     "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
     "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
 
@@ -29,7 +30,7 @@ CHOICES = {
 CHANGES = {
     "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
     "FarthestPoints": ("NumberOfPoints", "4"),
-    "GaussianField": ("Seed", "7"), "GeodesicPaths": ("PathType", "3"),
+    "FunctionalMap": ("NumberOfModes", "12"), "GaussianField": ("Seed", "7"), "GeodesicPaths": ("PathType", "3"),
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
     "Parameterization": ("MapType", "1"),
@@ -52,6 +53,14 @@ def depth_of(name, depth):
 def change_of(name):
     """Returns the property of a filter that the tests change, and its new value."""
     return CHANGES.get(name, ("Depth", "5"))
+
+
+def choices(name):
+    """Returns the properties that a filter needs to compute anything."""
+    if name == "FunctionalMap":
+        return {"Reference": simple.Calculator(Input=sphere(), CoordinateResults=1,
+                                               Function="coords*(1+0.3*coordsX+0.2*coordsY*coordsZ)")}
+    return CHOICES.get(name, {})
 
 
 def colors_of(name):

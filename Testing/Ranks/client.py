@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 sys.path.append(os.path.join(os.environ["GRIDFEM_SOURCE_DIR"], "Testing", "Plugin"))
-from plugin import CHOICES
+from plugin import choices
 
 RANKS = int(sys.argv[2])
 DEPTH = 4
@@ -61,8 +61,8 @@ class Client(unittest.TestCase):
             with open(os.path.join(folder, panel)) as text:
                 name = re.search(r'<SourceProxy name="(\w+)"', text.read()).group(1)
             with self.subTest(proxy=name):
-                proxy = getattr(simple, name)(Input=self.surface, **CHOICES.get(name, {}))
-                for prop, value in (("Depth", DEPTH), ("NumberOfModes", 9)):
+                proxy = getattr(simple, name)(Input=self.surface, **choices(name))
+                for prop, value in (("Depth", DEPTH), ("NumberOfModes", 12)):
                     if prop in proxy.ListProperties():
                         proxy.SetPropertyWithName(prop, value)
                 proxy.UpdatePipeline()

@@ -243,6 +243,7 @@ def piece(mesh, kind, global_ids=False):
 CHOICES = {
     "ScreenedPoisson": {"ScreeningWeight": 100.0},
     "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12},
+    "FunctionalMap": {"NumberOfModes": 10},
     "SpectralSignatures": {"NumberOfModes": 8, "Tolerance": 1e-12},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
     "HeatDiffusion": {"NumberOfSteps": 2},
@@ -269,6 +270,9 @@ def make(name, depth=4, hats=False, gathers=False, **properties):
         getattr(made, "Set" + key)(value)
     for index, array in enumerate(ARRAYS.get(name, [])):
         made.SetInputArrayToProcess(index, 0, 0, POINTS, array)
+    if name == "FunctionalMap":
+        points, triangles = ellipsoid()
+        made.SetInputDataObject(2, whole((1.1 * points, triangles)))
     return made
 
 
@@ -312,13 +316,18 @@ def alone(compute):
 
 # --- comparison -------------------------------------------------------------------------------
 
+# Numbers of a map. A symmetric surface has several maps, and rounding decides between them.
+OF_MAPS = ("FunctionalMap", "MatchingColors", "MeanMismatch", "Mismatch", "ReferenceCorners", "ReferencePlace",
+           "ReferenceWeights")
+
+
 def arrays(attributes):
-    """Returns arrays of numbers by their names. Leaves out ghost flags, times, and ids of points, which
-    count through the gathered surface."""
+    """Returns arrays of numbers by their names. Leaves out ghost flags, times, numbers of maps, and ids of
+    points, which count through the gathered surface."""
     wrapped = dataset_adapter.DataSetAttributes(attributes, None, None)
     names = [attributes.GetArrayName(k) for k in range(attributes.GetNumberOfArrays())]
     left_out = (vtkDataSetAttributes.GhostArrayName(), "global", "Seconds", "NearestPoint",
-                "FarthestPoints")
+                "FarthestPoints", *OF_MAPS)
     return {name: numpy.array(wrapped[name], dtype=float) for name in names
             if attributes.GetArray(name) and name not in left_out}
 

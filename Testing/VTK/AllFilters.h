@@ -7,6 +7,7 @@
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkFarthestPoints.h"
+#include "vtkFunctionalMap.h"
 #include "vtkGaussianField.h"
 #include "vtkGeodesicDistance.h"
 #include "vtkGeodesicPaths.h"
@@ -70,11 +71,38 @@ inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeHats()
   return filter;
 }
 
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeMap()
+{
+  auto filter = vtkSmartPointer<vtkFunctionalMap>::New();
+  filter->SetNumberOfModes(12);
+  filter->SetInputDataObject(
+    2, ToPolyData(Mapped(GeodesicSphere(8),
+         [](const Vec3& p) { return Vec3(1.5 * p[0] + 0.3 * p[1] * p[1], p[1], 0.7 * p[2]); })));
+  return filter;
+}
+
 inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeDynamics()
 {
   auto filter = vtkSmartPointer<vtkSurfaceDynamics>::New();
   filter->SetNumberOfSteps(1);
   return filter;
+}
+
+/// Gives Functional Map a reference that the surface matches, but differs from.
+inline void SetLikeReference(vtkAlgorithm* filter, const TriangleMesh& surface)
+{
+  if (auto* map = vtkFunctionalMap::SafeDownCast(filter))
+  {
+    const auto other = [](const Vec3& p)
+    { return Vec3(p + 0.05 * Vec3(p[1] * p[2], std::sin(2.0 * p[0]), p[0] * p[1])); };
+    map->SetInputDataObject(2, ToPolyData(Mapped(surface, other)));
+  }
+}
+
+/// Whether an array is one of several that describe the same place, as on an edge.
+inline bool IsOneOfSeveral(const std::string& array)
+{
+  return array == "ReferenceCorners" || array == "ReferenceWeights" || array == "MatchingColors";
 }
 
 struct FilterCase
@@ -108,7 +136,7 @@ inline auto AllFilters()
   return ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
     FilterCase{ "FarthestPoints", &Make<vtkFarthestPoints> },
-    FilterCase{ "GaussianField", &Make<vtkGaussianField> },
+    FilterCase{ "FunctionalMap", &MakeMap }, FilterCase{ "GaussianField", &Make<vtkGaussianField> },
     FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
     FilterCase{ "GeodesicPaths", &Make<vtkGeodesicPaths> },
     FilterCase{ "HarmonicInterpolation", &MakeInterpolation },

@@ -3,7 +3,6 @@
 #include "Base/Errors.h"
 #include "Base/UnsolvedRows.h"
 #include "Grid/Grid.h"
-#include "Grid/TriangleArea.h"
 #include "Solvers/SolveOnMesh.h"
 #include "Solvers/SolveWarnings.h"
 #include "Solvers/SurfaceFields.h"
@@ -20,7 +19,6 @@ namespace
 {
 
 ///@{ Stages.
-constexpr const char* ModesStage = "Modes"; // at the points
 constexpr const char* SignaturesStage = "Signatures";
 constexpr const char* DistancesStage = "Distances";
 constexpr const char* ExpansionStage = "Expansion"; // of the values in the modes
@@ -29,21 +27,6 @@ constexpr const char* FilterStage = "Filter";
 
 /// Surrogates that are added up together.
 constexpr Id SurrogatesAtOnce = 16;
-
-/// Throws InvalidInput if all modes are constants and more modes exist. The message says how many
-/// modes it takes.
-void RequireNonConstant(const Spectrum& spectrum)
-{
-  const auto modes = static_cast<Index>(spectrum.eigenvalues.size());
-  if (modes <= spectrum.numberOfConstants && !spectrum.truncated)
-  {
-    const std::string components = std::to_string(spectrum.numberOfConstants);
-    throw InvalidInput("All " + std::to_string(modes) + " modes are constants: the surface has " +
-                       components +
-                       " connected components, each with one constant mode. Signatures " +
-                       "need a Number Of Modes above " + components + ".");
-  }
-}
 
 /// The square of the parameter unit, in world units.
 double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
@@ -58,32 +41,6 @@ double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
     return std::pow(grid.spacing * grid.CellsPerSide(), 2);
   }
   return 1.0;
-}
-
-/// A flag for each point: 1 if it is on a triangle with an area, or if a mode is not 0 there. Modes
-/// may all be 0 on a boundary, and triangles may be those of other processes.
-std::vector<char> PointsWithModes(const PointModes& modes, const TriangleMesh& mesh)
-{
-  std::vector<char> isReached(static_cast<std::size_t>(modes.values.rows()));
-  for (std::size_t point = 0; point < isReached.size(); ++point)
-  {
-    isReached[point] = !modes.values.row(static_cast<Id>(point)).isZero(0.0);
-  }
-  for (const std::array<Id, 3>& corners : mesh.triangles)
-  {
-    if (AreaVector(mesh.points, corners).norm() > 0.0)
-    {
-      std::for_each(corners.begin(), corners.end(), [&](Id corner) { isReached[corner] = 1; });
-    }
-  }
-  return isReached;
-}
-
-/// The progress of work that each process does on its own points. On a shared surface it is silent,
-/// because all processes report together.
-Progress OfOwnPoints(const Surface& surface, const Progress& progress)
-{
-  return surface.IsShared() ? Progress() : progress;
 }
 
 void RequireOnPoints(const GivenField& values)
@@ -178,7 +135,12 @@ const SignatureSolver::Result& SignatureSolver::Update(
                        std::to_string(options.lastMode) + ": no mode passes.");
   }
   job.Check(0.0);
-  this->UpdateModes(surface, input, options, job.progress.Part(0.0, 0.97));
+  modes_.Update(surface, input.modes, { options.equation, options.numberOfModes }, input.announce,
+    job.progress.Part(0.0, 0.97));
+  result_.modes = modes_.SharedModes();
+  result_.isConverged = modes_.IsConverged();
+  result_.where = modes_.Device();
+  result_.warnings = modes_.Warnings();
   job.Check(0.97);
   const auto modes = static_cast<int>(result_.modes->eigenvalues.size());
   result_.warnings.push_back(WarningOfBand(options, modes));
@@ -188,67 +150,27 @@ const SignatureSolver::Result& SignatureSolver::Update(
   return result_;
 }
 
-void SignatureSolver::UpdateModes(
-  Surface& surface, const Input& input, const Options& options, const Progress& progress)
-{
-  Stages& stages = surface.GetStages();
-  StageKey key;
-  key.Add(static_cast<bool>(input.modes));
-  if (input.modes)
-  {
-    stages.Run(ModesStage, key.Add(input.modes.version),
-      [&]
-      {
-        result_ = {};
-        result_.modes = input.modes.modes;
-        isReached_ = PointsWithModes(*result_.modes, *input.modes.mesh);
-      });
-    result_.warnings.clear();
-    return;
-  }
-  SpectrumSolver::Input ofSpectrum;
-  ofSpectrum.completesMultiplets = true;
-  ofSpectrum.announce = input.announce;
-  const SpectrumSolver::Result& solved = spectrum_.Update(surface, ofSpectrum,
-    { options.equation, options.numberOfModes }, { surface.Threads(), progress.Part(0.0, 0.98) });
-  RequireNonConstant(solved.spectrum);
-  stages.Run(ModesStage, key.Add(stages.Version(SolveStage)),
-    [&]
-    {
-      result_ = {};
-      auto modes = std::make_shared<PointModes>();
-      modes->eigenvalues = solved.eigenvalues;
-      modes->area = surface.Area();
-      modes->values = spectrum_.ModesAtPoints(
-        surface, 0, solved.NumberOfModes(), OfOwnPoints(surface, progress.Part(0.98, 1.0)));
-      isReached_ = surface.PointsWithFunctions();
-      FillRows(isReached_, 0.0, modes->values);
-      result_.modes = std::move(modes);
-    });
-  result_.isConverged = solved.spectrum.converged;
-  result_.where = solved.spectrum.where;
-  result_.warnings = solved.warnings;
-}
-
 void SignatureSolver::UpdateSums(
   const Surface& surface, const Input& input, const Options& options, const Progress& progress)
 {
   const PointModes& modes = *result_.modes;
-  const TriangleMesh& mesh = input.modes ? *input.modes.mesh : surface.Mesh();
+  const TriangleMesh& mesh = modes_.Mesh();
   const int threads = surface.Threads();
   StageKey key;
   key.Add(surface.GetStages().Version(ModesStage)).Add(options.numberOfScales);
   surface.GetStages().Run(SignaturesStage, key,
     [&]
     {
+      surface.Require({ 2.0 * sizeof(double) * double(modes.values.rows()) * options.numberOfScales,
+        "Number Of Scales " + std::to_string(options.numberOfScales), "Choose fewer scales." });
       result_.waveBands = WaveEnergies(modes, options.numberOfScales);
       result_.waveKernel =
         WaveKernelSignature(modes, result_.waveBands, { threads, progress.Part(0.0, 0.4) });
       result_.heatTimes = HeatTimes(modes, options.numberOfScales);
       result_.heatKernel =
         HeatKernelSignature(modes, result_.heatTimes, { threads, progress.Part(0.4, 0.8) });
-      ClearRows(isReached_, result_.waveKernel);
-      ClearRows(isReached_, result_.heatKernel);
+      ClearRows(modes_.IsReached(), result_.waveKernel);
+      ClearRows(modes_.IsReached(), result_.heatKernel);
     });
   const ParameterUnits units = surface.UsedOptions().parameterUnits;
   key = {};
@@ -264,8 +186,8 @@ void SignatureSolver::UpdateSums(
         const double time = options.diffusionTime * SquaredUnit(units, mesh, modes.area);
         result_.diffusionDistance = DiffusionDistance(modes, input.sources, time, threads);
         result_.biharmonicDistance = BiharmonicDistance(modes, input.sources, threads);
-        ClearRows(isReached_, result_.diffusionDistance);
-        ClearRows(isReached_, result_.biharmonicDistance);
+        ClearRows(modes_.IsReached(), result_.diffusionDistance);
+        ClearRows(modes_.IsReached(), result_.biharmonicDistance);
       }
     });
   const bool isFiltered = options.filterType != ModeFilter::None;
@@ -336,7 +258,7 @@ void SignatureSolver::Filter(
   const int first = options.filterType == ModeFilter::BandPass ? options.firstMode : 0;
   const int last = isHigh ? options.firstMode - 1 : options.lastMode;
   // The constants belong to the sum as a whole, or only their parts in some modes do.
-  const bool areWhole = first == 0 && last + 1 >= CountZeroModes(modes);
+  const bool areWhole = first == 0 && last >= CountZeroModes(modes) - 1;
   MultiVector sum =
     SumOfModes(modes, areWhole ? shares_ : result_.coefficients, first, last, surface.Threads());
   result_.filtered = isHigh ? MultiVector(values_ - sum) : std::move(sum);
@@ -344,7 +266,7 @@ void SignatureSolver::Filter(
   {
     result_.filtered.rowwise() += constants_;
   }
-  ClearRows(isReached_, result_.filtered);
+  ClearRows(modes_.IsReached(), result_.filtered);
 }
 
 MultiVector SignatureSolver::Surrogates(
@@ -374,7 +296,7 @@ MultiVector SignatureSolver::Surrogates(
   }
   const Eigen::RowVectorXd constantsOfAll = constants_.replicate(1, count);
   surrogates.rowwise() += constantsOfAll;
-  ClearRows(isReached_, surrogates);
+  ClearRows(modes_.IsReached(), surrogates);
   return surrogates;
 }
 

@@ -4,8 +4,7 @@
 #define GridFEM_SignatureSolver_h
 
 #include "Solvers/GivenField.h"
-#include "Solvers/SpectrumSolver.h"
-#include "Spectrum/SpectralDescriptors.h"
+#include "Solvers/SurfaceModes.h"
 
 #include <limits>
 #include <memory>
@@ -14,16 +13,6 @@
 
 namespace gridfem
 {
-
-/// Modes on the points of a mesh, or none.
-struct GivenModes
-{
-  explicit operator bool() const { return modes != nullptr; }
-
-  std::shared_ptr<const TriangleMesh> mesh; // of this process
-  std::shared_ptr<const PointModes> modes;
-  StageKey version; // another one for each content
-};
 
 /// The modes of a field that are kept.
 enum class ModeFilter
@@ -111,8 +100,6 @@ public:
     const Job& job = {});
 
 private:
-  void UpdateModes(
-    Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void UpdateSums(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
   void Expand(const Surface& surface, const TriangleMesh& mesh, const Input& input);
@@ -120,8 +107,7 @@ private:
   MultiVector Surrogates(
     const Surface& surface, const Options& options, const Progress& progress) const;
 
-  SpectrumSolver spectrum_;
-  std::vector<char> isReached_; // per point: the modes have a value
+  SurfaceModes modes_;
   ///@{ While values are filtered.
   MultiVector values_; // without their large constants
   Eigen::RowVectorXd constants_;

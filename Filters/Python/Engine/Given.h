@@ -29,9 +29,11 @@ struct Given
   std::vector<Id> sourceCell; // per triangle
   Id numberOfCells = 0;
   std::map<std::string, GivenArray> arrays;
-  std::vector<Id> sources;      // points
-  std::vector<double> observed; // values at the sources, or none
-  GivenReactions reactions;     // or none
+  std::shared_ptr<const TriangleMesh> reference; // of a map, or null
+  std::vector<Id> sources;                       // points
+  std::vector<Id> partners;                      // points of the reference, for each source
+  std::vector<double> observed;                  // values at the sources, or none
+  GivenReactions reactions;                      // or none
 
   /// @param cells  a row of ids of points for each cell, `corners` in each
   /// @param weldCoincidentPoints  joins seams (JoinSeams); cells with hanging nodes get more

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <optional>
 
 namespace py = pybind11;
 
@@ -30,6 +31,7 @@ using Numbers = std::map<std::string, double>;
 
 const std::map<std::string, MakeProblem> Problems = {
   { "FarthestPoints", MakeFarthestPoints },
+  { "FunctionalMap", MakeFunctionalMap },
   { "GaussianField", MakeGaussianField },
   { "GeodesicDistance", MakeDistance },
   { "GeodesicPaths", MakePath },
@@ -121,7 +123,8 @@ Results SolveAlone(const Problem& problem, const Given& given)
 
 py::tuple Solve(const std::string& name, const Points& points, const Cells& cells,
   const Arrays& arrays, const Numbers& numbers, const std::vector<Id>& sources,
-  const std::vector<double>& observed, const py::object& reactions, int species)
+  const std::vector<double>& observed, const py::object& reactions, int species,
+  const std::optional<std::pair<Points, Cells>>& reference, const std::vector<Id>& partners)
 {
   Properties properties(name, numbers);
   const Problem problem = Problems.at(name)(properties);
@@ -141,6 +144,14 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   given.sources = sources;
   given.observed = observed;
   given.reactions = ReactionsOf(reactions, species);
+  if (reference)
+  {
+    const auto& [places, polygons] = *reference;
+    Given other;
+    other.SetCells(VectorsOf(places), polygons.data(), polygons.shape(0), polygons.shape(1), welds);
+    given.reference = other.mesh;
+    given.partners = partners;
+  }
   try
   {
     const Results results = SolveAlone(problem, given);
@@ -182,7 +193,8 @@ PYBIND11_MODULE(_core, module)
     "arrays: per name a matrix and whether its rows are points, else they are cells.",
     py::arg("name"), py::arg("points"), py::arg("cells"), py::arg("arrays"), py::arg("properties"),
     py::arg("sources"), py::arg("observed"), py::arg("reactions") = py::none(),
-    py::arg("species") = 0);
+    py::arg("species") = 0, py::arg("reference") = py::none(),
+    py::arg("partners") = std::vector<Id>());
   module.def("triangulate", &Triangulate, "The triangles of a polygon, by its corners.");
   module.def("properties", &KnownProperties, "Per property its default and its range.");
 }

@@ -55,6 +55,7 @@ extern const MakeProblem MakeDiffusion;
 extern const MakeProblem MakeDistance;
 extern const MakeProblem MakeDynamics;
 extern const MakeProblem MakeFarthestPoints;
+extern const MakeProblem MakeFunctionalMap;
 extern const MakeProblem MakeFlow;
 extern const MakeProblem MakeGaussianField;
 extern const MakeProblem MakeGradient;

@@ -7,6 +7,7 @@
 #include "Solvers/DynamicsSolver.h"
 #include "Solvers/FarthestPointsSolver.h"
 #include "Solvers/FlowSolver.h"
+#include "Solvers/FunctionalMapSolver.h"
 #include "Solvers/GaussianFieldSolver.h"
 #include "Solvers/GradientSolver.h"
 #include "Solvers/InterpolationSolver.h"
@@ -46,10 +47,10 @@ class OptionFields : public ::testing::Test
 
 using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
   DiffusionSolver::Options, DistanceSolver::Options, DynamicsSolver::Options,
-  FarthestPointsSolver::Options, FlowSolver::Options, GaussianFieldSolver::Options,
-  GradientSolver::Options, InterpolationSolver::Options, ParameterizationSolver::Options,
-  PathSolver::Options, PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options,
-  StitchSolver::Options>;
+  FarthestPointsSolver::Options, FlowSolver::Options, FunctionalMapSolver::Options,
+  GaussianFieldSolver::Options, GradientSolver::Options, InterpolationSolver::Options,
+  ParameterizationSolver::Options, PathSolver::Options, PoissonSolver::Options,
+  SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace

@@ -36,7 +36,7 @@ def value_of(proxy, name):
 
 
 # The ports that are shown in the 3D view, if it is not port 0 alone.
-SURFACES = {"GeodesicPaths": [0, 1], "Parameterization": [0, 1], "ClipToOctree": [0, 2]}
+SURFACES = {"FunctionalMap": [0, 1], "GeodesicPaths": [0, 1], "Parameterization": [0, 1], "ClipToOctree": [0, 2]}
 # The series of a chart that opens beside a filter, and the titles of its axes.
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
 # Filters that tell in the view what is shown.
@@ -96,6 +96,8 @@ def check_shown(name):
         sys.exit(f"{name}: nothing comes out of the state")
     association, array = surfaces[0].ColorArrayName
     wanted_array, colors = plugin.colors_of(name)
+    if name == "FunctionalMap":  # shows its input, because it has no Reference
+        wanted_array = ""
     if (array or "") != wanted_array:
         sys.exit(f"{name}: colored by {array}")
     if surfaces[0].Representation != "Surface":

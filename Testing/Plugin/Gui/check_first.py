@@ -95,6 +95,19 @@ class FirstApply(unittest.TestCase):
         for point, value in zip(table[0::2], table[1::2]):
             self.assertAlmostEqual(values.GetTuple1(int(point)), value, delta=1e-5)
 
+    def test_both_surfaces_of_a_map_have_matching_colors(self):
+        plugin.clear()
+        simple.LoadState(f"{FOLDER}/colors.Reference.pvsm")
+        parts = [part for view in simple.GetViews() for part in view.Representations
+                 if getattr(part, "Visibility", 0) and hasattr(part, "ColorArrayName")]
+        inputs = [part.SMProxy.GetProperty("Input") for part in parts]
+        matched = simple.FindSource("FunctionalMap1").SMProxy
+        shown = [part for part, of in zip(parts, inputs) if of.GetProxy(0) == matched]
+        self.assertEqual([part.SMProxy.GetProperty("Input").GetOutputPortForConnection(0) for part in shown], [0, 1])
+        for part in shown:
+            self.assertEqual(list(part.ColorArrayName), ["POINTS", "MatchingColors"])
+            self.assertEqual(part.MapScalars, 0)
+
     def test_the_array_of_the_input_is_chosen(self):
         for file, array in (("one", "height"), ("colors", "RGB")):
             for name, key in CHOICES.items():

@@ -84,6 +84,17 @@ def choose_sources():
     script.delete()
 
 
+def choose_reference():
+    """The map to another source, which is chosen in the panel."""
+    script.select(len(PAIRS))  # colors.vtp
+    script.make("FunctionalMap")
+    script.event(f"{PROPERTIES}/Reference/1QComboBox0", "set_string", "raw.vtp")
+    for key, value in (("NumberOfModes", "12"), ("Depth", DEPTH)):
+        script.enter(simple.FunctionalMap(Input=surface).SMProxy.GetProperty(key), value)
+    script.apply()
+    script.save("colors.Reference")
+
+
 def choose_position():
     """The distance from a handle in the view, which is placed by its coordinates."""
     script.make("GeodesicDistance")
@@ -114,4 +125,5 @@ for file, filters in PAIRS:
         script.delete()
 choose_position()
 choose_sources()  # ParaView selects nothing after it
+choose_reference()
 script.write("first")

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace gridfem
@@ -107,6 +108,20 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
   return PickTuples(input, from);
 }
 
+/// Sets a tuple to no value.
+void SetNothing(vtkAbstractArray* array, vtkIdType tuple)
+{
+  if (auto* numbers = vtkDataArray::SafeDownCast(array))
+  {
+    const double id = array->GetDataType() == VTK_ID_TYPE ? -1.0 : 0.0;
+    const double none = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : id;
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+    {
+      numbers->SetComponent(tuple, c, none);
+    }
+  }
+}
+
 } // namespace
 
 void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind)
@@ -145,6 +160,41 @@ bool IsColor(vtkAbstractArray* array)
 bool IsReal(vtkAbstractArray* array)
 {
   return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+vtkSmartPointer<vtkAbstractArray> ValuesAtPlaces(
+  vtkAbstractArray* array, const std::vector<TrianglePlace>& places)
+{
+  auto output = MakeLike(array, static_cast<vtkIdType>(places.size()));
+  const bool isLinear = IsReal(array) || IsColor(array);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType k = 0; k < static_cast<vtkIdType>(places.size()); ++k)
+  {
+    const TrianglePlace& place = places[k];
+    std::array<double, 3> weights{};
+    corners->Reset();
+    for (int c = 0; c < 3; ++c)
+    {
+      if (place.weights[c] > 0.0) // a NaN at another corner must not count
+      {
+        weights[corners->InsertNextId(place.corners[c])] = place.weights[c];
+      }
+    }
+    const auto nearest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+    if (corners->GetNumberOfIds() == 0)
+    {
+      SetNothing(output, k);
+    }
+    else if (isLinear)
+    {
+      output->InterpolateTuple(k, corners, array, weights.data());
+    }
+    else
+    {
+      output->SetTuple(k, corners->GetId(nearest), array);
+    }
+  }
+  return output;
 }
 
 void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output)

@@ -7,7 +7,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <string>
+#include <vector>
 
 class vtkAbstractArray;
 class vtkCellData;
@@ -40,6 +42,19 @@ vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* array, vtkIdType tu
 
 /// Returns the tuples of an array at some places. Throws std::bad_alloc.
 vtkSmartPointer<vtkAbstractArray> PickTuples(vtkAbstractArray* array, vtkIdList* places);
+
+/// A place on a triangle: the points at its corners, and their weights.
+struct TrianglePlace
+{
+  std::array<Id, 3> corners{ -1, -1, -1 }; // -1: there is no place
+  std::array<double, 3> weights{};
+};
+
+/// Returns the values of an array at places. Real numbers and colors are linear on the triangles.
+/// Other values come from the nearest corner. Without a place they are NaN, or else 0 or empty, and
+/// ids are -1. Throws std::bad_alloc.
+vtkSmartPointer<vtkAbstractArray> ValuesAtPlaces(
+  vtkAbstractArray* array, const std::vector<TrianglePlace>& places);
 
 /// Adds point arrays at the clipped points. Without cut points they are shared unchanged. Real
 /// numbers are linear along source triangles, as double. Colors (bytes with 3 or 4 components) are

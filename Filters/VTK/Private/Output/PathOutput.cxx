@@ -20,47 +20,25 @@ namespace gridfem
 namespace
 {
 
-/// Copies an array of the input to the points of paths.
-vtkSmartPointer<vtkAbstractArray> AlongPaths(vtkAbstractArray* array,
-  const std::vector<PathSolver::Path>& paths, const TriangleMesh& mesh, vtkIdType points)
+std::vector<TrianglePlace> PlacesOf(
+  const std::vector<PathSolver::Path>& paths, const TriangleMesh& mesh)
 {
-  auto output = MakeLike(array, points);
-  const bool isLinear = IsReal(array) || IsColor(array);
-  vtkIdType place = 0;
-  vtkNew<vtkIdList> corners;
+  std::vector<TrianglePlace> places;
   for (const PathSolver::Path& path : paths)
   {
     for (const PathPoint& point : path.path.points)
     {
-      const auto& corner = mesh.triangles[point.triangle];
-      std::array<double, 3> weights{};
-      Id nearest = 0;
-      point.weights.maxCoeff(&nearest);
-      corners->Reset();
-      for (int k = 0; k < 3; ++k)
-      {
-        if (point.weights[k] > 0.0) // a NaN at another corner must not count
-        {
-          weights[corners->InsertNextId(corner[k])] = point.weights[k];
-        }
-      }
-      if (isLinear)
-      {
-        output->InterpolateTuple(place, corners, array, weights.data());
-      }
-      else
-      {
-        output->SetTuple(place, corner[nearest], array);
-      }
-      ++place;
+      places.push_back({ mesh.triangles[point.triangle],
+        { point.weights[0], point.weights[1], point.weights[2] } });
     }
   }
-  return output;
+  return places;
 }
 
 void AddArraysAlongPaths(const std::vector<PathSolver::Path>& paths, const TriangleMesh& mesh,
-  vtkPointData* input, vtkIdType points, vtkPointData* output)
+  vtkPointData* input, vtkPointData* output)
 {
+  const std::vector<TrianglePlace> places = PlacesOf(paths, mesh);
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
@@ -69,7 +47,7 @@ void AddArraysAlongPaths(const std::vector<PathSolver::Path>& paths, const Trian
       continue;
     }
     RequireLength(array, static_cast<Id>(mesh.points.size()), "points");
-    output->AddArray(AlongPaths(array, paths, mesh, points));
+    output->AddArray(ValuesAtPlaces(array, places));
   }
 }
 
@@ -118,8 +96,7 @@ void WritePaths(const std::vector<PathSolver::Path>& paths, const InputMesh& mes
 {
   const PathArrays arrays = ArraysOfPaths(paths, mesh, output);
   vtkPointData* points = output->GetPointData();
-  AddArraysAlongPaths(
-    paths, *mesh.triangles, input->GetPointData(), output->GetNumberOfPoints(), points);
+  AddArraysAlongPaths(paths, *mesh.triangles, input->GetPointData(), points);
   const auto rows = [](const std::vector<double>& values, Id columns)
   {
     return MultiVector(Eigen::Map<const MultiVector>(
