@@ -66,15 +66,17 @@ bool AreColors(vtkPVArrayInformation* array, const std::string& direct)
 
 Found Find(vtkSMSourceProxy* filter, vtkPVXMLElement* hint)
 {
-  const std::string name = gridfem::ResultName(filter, hint->GetAttributeOrEmpty("array"));
-  vtkPVDataInformation* data = filter->GetDataInformation(PortOf(hint));
+  const int port = PortOf(hint);
+  const std::string array = hint->GetAttributeOrEmpty("array");
+  const std::string name = port == 0 ? gridfem::ResultName(filter, array) : array;
+  vtkPVDataInformation* data = filter->GetDataInformation(port);
   for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
-    vtkPVArrayInformation* array =
+    vtkPVArrayInformation* found =
       data ? data->GetArrayInformation(name.c_str(), association) : nullptr;
-    if (array)
+    if (found)
     {
-      return { array, association, AreColors(array, hint->GetAttributeOrEmpty("direct")) };
+      return { found, association, AreColors(found, hint->GetAttributeOrEmpty("direct")) };
     }
   }
   return {};

@@ -1,6 +1,7 @@
 #include "vtkFunctionalMap.h"
 
 #include "Input/CarriedModes.h"
+#include "Input/ModeReader.h"
 #include "Input/PropertyList.h"
 #include "Input/SurfaceInput.h"
 #include "Output/MapOutput.h"
@@ -88,18 +89,22 @@ void vtkFunctionalMap::Compute(vtkInformationVector** inputs, vtkInformationVect
   }
   gridfem::FilterState& state = *this->State;
   Internals& data = *this->Data;
-  vtkPolyData* reference = data.ReferenceInput.Of(given);
-  if (reference->GetNumberOfCells() == 0)
+  vtkPolyData* reference = nullptr;
+  gridfem::FunctionalMapSolver::OfReference([&] { reference = data.ReferenceInput.Of(given); });
+  if (reference->GetNumberOfPolys() + reference->GetNumberOfStrips() == 0)
   {
-    throw gridfem::InvalidInput("The input Reference has no surface.");
+    throw gridfem::InvalidInput("The input Reference has no surface. On several MPI ranks it has " +
+                                std::string("to be polygonal data: apply Extract Surface first."));
   }
+  gridfem::FunctionalMapSolver::OfReference([&] { gridfem::RequireArrays(reference); });
   state.options.functionsPerPoint =
     gridfem::FunctionalMapSolver::SurfaceDefaults().functionsPerPoint;
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   data.Reference.SetInput(reference, nullptr);
   gridfem::FunctionalMapSolver::Input ofSolver;
   ofSolver.modes = IfEnough(data.Carried.Update(surface, input));
-  ofSolver.referenceModes = IfEnough(data.OfReference.Update(data.Reference, reference));
+  gridfem::FunctionalMapSolver::OfReference([&]
+    { ofSolver.referenceModes = IfEnough(data.OfReference.Update(data.Reference, reference)); });
   ofSolver.landmarks = data.Landmarks;
   ofSolver.announce = [&](const std::string& cost, bool takesHours)
   { state.bridge.Announce(cost, takesHours); };
@@ -109,14 +114,16 @@ void vtkFunctionalMap::Compute(vtkInformationVector** inputs, vtkInformationVect
   data.Result = &data.Solver.Update(
     surface, data.Reference, ofSolver, options, { surface.Threads(), state.GetProgress() });
   this->Write(input, reference, outputs);
-  for (const gridfem::CarriedModes* carried : { &data.Carried, &data.OfReference })
+  const auto warn = [this](const std::string& port, const gridfem::CarriedModes& carried)
   {
-    if (!carried->Misfit().empty())
+    if (!carried.Misfit().empty())
     {
-      this->Warn({ "The modes of an input belong to another shape: " + carried->Misfit() +
+      this->Warn({ "The modes of the " + port + " belong to another shape: " + carried.Misfit() +
                    ". The filter computes new modes." });
     }
-  }
+  };
+  warn("input", data.Carried);
+  warn("Reference", data.OfReference);
   this->Warn(data.Result->warnings);
 }
 
@@ -126,6 +133,10 @@ void vtkFunctionalMap::Write(
   const gridfem::FunctionalMapSolver::Result& result = *this->Data->Result;
   vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
   mesh->ShallowCopy(input);
+  if (!this->Data->Carried.Misfit().empty())
+  {
+    gridfem::RemoveModes(mesh);
+  }
   gridfem::WriteMap(result.map, reference, mesh);
   if (!result.where.empty())
   {
@@ -134,6 +145,10 @@ void vtkFunctionalMap::Write(
   }
   vtkPolyData* colored = vtkPolyData::GetData(outputs, 1);
   colored->ShallowCopy(reference);
+  if (!this->Data->OfReference.Misfit().empty())
+  {
+    gridfem::RemoveModes(colored);
+  }
   gridfem::AddMatchingColors(reference, colored);
 }
 

@@ -43,10 +43,11 @@ Sheets FindSheets(const TriangleMesh& mesh, const Array<Index>& place)
   std::vector<Index> number(mesh.triangles.size(), -1);
   for (SurfaceComponent& component : FindComponents(mesh, neighbors, side))
   {
-    const auto& first = mesh.triangles[component.triangles.front()];
-    if (IsDegenerate({ place[first[0]], place[first[1]], place[first[2]] }))
+    const auto hasArea = [&](Id t)
+    { return AreaVector(mesh.points, mesh.triangles[t]).norm() > 0.0; };
+    if (std::none_of(component.triangles.begin(), component.triangles.end(), hasArea))
     {
-      continue;
+      continue; // nothing to flatten; lengths may be 0, too
     }
     std::sort(component.triangles.begin(), component.triangles.end());
     sheets.member.emplace_back();
@@ -68,8 +69,8 @@ Sheets FindSheets(const TriangleMesh& mesh, const Array<Index>& place)
     for (int corner = 0; corner < 3; ++corner)
     {
       const Neighbor& neighbor = neighbors[t][corner];
-      // Otherwise the component has one side only, and ends here.
-      if (neighbor.triangle != Neighbor::None &&
+      // Otherwise it is left out, or the component has one side only and ends here.
+      if (number[t] >= 0 && neighbor.triangle != Neighbor::None &&
           (side[t] == side[neighbor.triangle]) == neighbor.facesAlike)
       {
         sheets.triangles.twin[halfEdge(t, corner)] = halfEdge(neighbor.triangle, neighbor.corner);

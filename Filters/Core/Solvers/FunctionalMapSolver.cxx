@@ -1,6 +1,5 @@
 #include "Solvers/FunctionalMapSolver.h"
 
-#include "Base/Errors.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SolveWarnings.h"
 
@@ -62,20 +61,6 @@ void RequireLandmarks(const std::vector<Landmark>& landmarks, const std::vector<
                          ", but no polygon of the " + (isOnSurface ? "Reference" : "surface") +
                          " uses a point with this id.");
     }
-  }
-}
-
-/// Runs a body, and names the reference in its errors.
-template<class Body>
-void OfReference(Body&& body)
-{
-  try
-  {
-    body();
-  }
-  catch (const InvalidInput& error)
-  {
-    throw InvalidInput("Reference: " + std::string(error.what()));
   }
 }
 

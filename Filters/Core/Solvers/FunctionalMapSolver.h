@@ -2,6 +2,7 @@
 #ifndef GridFEM_FunctionalMapSolver_h
 #define GridFEM_FunctionalMapSolver_h
 
+#include "Base/Errors.h"
 #include "Solvers/SurfaceModes.h"
 #include "Spectrum/FunctionalMap.h"
 
@@ -47,6 +48,20 @@ public:
     std::string where; // the device of the cycles; empty if modes are given
     std::vector<std::string> warnings;
   };
+
+  /// Runs a body, and names the reference in its errors.
+  template<class Body>
+  static void OfReference(Body&& body)
+  {
+    try
+    {
+      body();
+    }
+    catch (const InvalidInput& error)
+    {
+      throw InvalidInput("Reference: " + std::string(error.what()));
+    }
+  }
 
   /// Computes the map. Surfaces with given modes need no preparation. Each surface has stages of
   /// its own. Throws InvalidInput, also if a surface has several components, and Aborted.

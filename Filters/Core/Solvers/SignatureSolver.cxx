@@ -137,6 +137,7 @@ const SignatureSolver::Result& SignatureSolver::Update(
   job.Check(0.0);
   modes_.Update(surface, input.modes, { options.equation, options.numberOfModes }, input.announce,
     job.progress.Part(0.0, 0.97));
+  modes_.RequireNonConstant();
   result_.modes = modes_.SharedModes();
   result_.isConverged = modes_.IsConverged();
   result_.where = modes_.Device();

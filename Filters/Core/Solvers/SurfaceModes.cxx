@@ -11,20 +11,6 @@ namespace gridfem
 namespace
 {
 
-/// Throws InvalidInput if all modes are constants and more modes exist. The message says how many
-/// modes it takes.
-void RequireNonConstant(const Spectrum& spectrum)
-{
-  const auto modes = static_cast<Index>(spectrum.eigenvalues.size());
-  if (modes <= spectrum.numberOfConstants && !spectrum.truncated)
-  {
-    const std::string components = std::to_string(spectrum.numberOfConstants);
-    throw InvalidInput("All " + std::to_string(modes) + " modes are constants: the surface has " +
-                       components + " connected components, each with one constant mode. The " +
-                       "filter needs a Number Of Modes above " + components + ".");
-  }
-}
-
 /// A flag for each point: 1 if it is on a triangle with an area, or if a mode is not 0 there. Modes
 /// may all be 0 on a boundary, and triangles may be those of other processes.
 std::vector<char> PointsWithModes(const PointModes& modes, const TriangleMesh& mesh)
@@ -69,6 +55,7 @@ void SurfaceModes::Update(Surface& surface, const GivenModes& given,
       mesh_ = given.mesh;
       isReached_ = PointsWithModes(*modes_, *mesh_);
       constants_ = CountZeroModes(*modes_);
+      areAllConstants_ = false;
     });
   isConverged_ = true;
   device_.clear();
@@ -83,7 +70,6 @@ void SurfaceModes::Compute(Surface& surface, const SpectrumSolver::Options& opti
   input.announce = announce;
   const SpectrumSolver::Result& solved =
     spectrum_.Update(surface, input, options, { surface.Threads(), progress.Part(0.0, 0.98) });
-  RequireNonConstant(solved.spectrum);
   Stages& stages = surface.GetStages();
   StageKey key;
   key.Add(false).Add(stages.Version(SolveStage));
@@ -99,12 +85,25 @@ void SurfaceModes::Compute(Surface& surface, const SpectrumSolver::Options& opti
       isReached_ = surface.PointsWithFunctions();
       FillRows(isReached_, 0.0, modes->values);
       constants_ = solved.spectrum.numberOfConstants;
+      areAllConstants_ = solved.NumberOfModes() <= constants_ && !solved.spectrum.truncated;
       modes_ = std::move(modes);
       mesh_ = surface.SharedMesh();
     });
   isConverged_ = solved.spectrum.converged;
   device_ = solved.spectrum.where;
   warnings_ = solved.warnings;
+}
+
+void SurfaceModes::RequireNonConstant() const
+{
+  if (areAllConstants_)
+  {
+    const std::string components = std::to_string(constants_);
+    throw InvalidInput("All " + std::to_string(modes_->eigenvalues.size()) +
+                       " modes are constants: the surface has " + components +
+                       " connected components, each with one constant mode. Signatures need a " +
+                       "Number Of Modes above " + components + ".");
+  }
 }
 
 } // namespace gridfem

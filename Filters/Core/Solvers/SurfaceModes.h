@@ -28,9 +28,8 @@ constexpr const char* ModesStage = "Modes";
 class SurfaceModes
 {
 public:
-  /// Takes the given modes, or computes at least `number` modes: the last group of equal
-  /// eigenvalues is complete. Given modes need no preparation of the surface. Collective. Throws
-  /// InvalidInput if all computed modes are constants and more modes exist, and Aborted.
+  /// Takes the given modes, or computes modes: the last group of equal eigenvalues is complete.
+  /// Given modes need no preparation of the surface. Collective. Throws InvalidInput and Aborted.
   void Update(Surface& surface, const GivenModes& given, const SpectrumSolver::Options& options,
     const SpectrumSolver::Announcement& announce, const Progress& progress);
 
@@ -45,6 +44,10 @@ public:
 
   /// How many modes are constants, one for each component. 0 if they are 0 on a boundary.
   Index NumberOfConstants() const { return constants_; }
+
+  /// Throws InvalidInput if all computed modes are constants and more modes exist. The message says
+  /// how many modes it takes.
+  void RequireNonConstant() const;
 
   ///@{ Of the computation; as after a good one if modes are given.
   bool IsConverged() const { return isConverged_; }
@@ -61,6 +64,7 @@ private:
   std::shared_ptr<const TriangleMesh> mesh_;
   std::vector<char> isReached_;
   Index constants_ = 0;
+  bool areAllConstants_ = false; // and more modes exist
   bool isConverged_ = true;
   std::string device_;
   std::vector<std::string> warnings_;

@@ -51,7 +51,8 @@ struct FunctionalMap
 /// The mismatch at a point is |φ(x) - matrix ψ(y)| / √k for the k modes φ of the surface and ψ of
 /// the reference, which have the mean square 1. Isometric surfaces have the mismatch 0, and
 /// unrelated ones about 1.
-/// @param landmarks  points that modes reach; each counts in all refinements
+/// @param landmarks  points that modes reach. Up to forty modes they only choose between maps. From
+///   then on, all of them together count like a tenth of the points of a fit.
 /// Throws InvalidInput if a surface has fewer than FewestModesOfMap modes, and Aborted. Same bits
 /// for any number of threads.
 FunctionalMap FindFunctionalMap(const ModesOfShape& surface, const ModesOfShape& reference,

@@ -52,6 +52,11 @@ std::array<double, 2> Least(const Quadratic& q)
 MapPlaces::MapPlaces(const TriangleMesh& mesh, const ModeRows& rows, const MultiVector& embedded)
   : embedded_(embedded)
 {
+  const Array<Index> place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh));
+  for (const Id point : rows.point)
+  {
+    classOf_.push_back(place[point]);
+  }
   std::vector<Index> corners;
   for (const std::array<Id, 3>& triangle : mesh.triangles)
   {
@@ -60,35 +65,38 @@ MapPlaces::MapPlaces(const TriangleMesh& mesh, const ModeRows& rows, const Multi
     if (*std::min_element(ofRows.begin(), ofRows.end()) >= 0)
     {
       triangles_.push_back(ofRows);
-      for (const Id row : ofRows)
+      for (const Id corner : triangle)
       {
-        corners.push_back(static_cast<Index>(row));
+        corners.push_back(place[corner]);
       }
     }
   }
-  around_ = GroupItems(corners.data(), static_cast<Id>(corners.size()), embedded.rows());
+  around_ = GroupItems(
+    corners.data(), static_cast<Id>(corners.size()), static_cast<Id>(mesh.points.size()));
 }
 
 PlaceOfMap MapPlaces::Nearest(Id row, const Eigen::RowVectorXd& query) const
 {
-  const Eigen::RowVectorXd away = query - embedded_.row(row);
-  PlaceOfMap nearest{ { row, row, row }, { 1.0, 0.0, 0.0 }, away.norm() };
-  double least = 0.0; // square of the distance, less than at the row
-  for (Index k = around_.begin[row]; k < around_.begin[row + 1]; ++k)
+  PlaceOfMap nearest{ { row, row, row }, { 1.0, 0.0, 0.0 }, (query - embedded_.row(row)).norm() };
+  double least = nearest.distance * nearest.distance;
+  const Index place = classOf_[row];
+  for (Index k = around_.begin[place]; k < around_.begin[place + 1]; ++k)
   {
     const std::array<Id, 3>& triangle = triangles_[around_.item[k] / 3];
     const Index corner = around_.item[k] % 3;
+    const Id first = triangle[corner]; // a copy of the row
     const Id second = triangle[(corner + 1) % 3];
     const Id third = triangle[(corner + 2) % 3];
-    const Eigen::RowVectorXd u = embedded_.row(second) - embedded_.row(row);
-    const Eigen::RowVectorXd v = embedded_.row(third) - embedded_.row(row);
+    const Eigen::RowVectorXd away = query - embedded_.row(first);
+    const Eigen::RowVectorXd u = embedded_.row(second) - embedded_.row(first);
+    const Eigen::RowVectorXd v = embedded_.row(third) - embedded_.row(first);
     const Quadratic square{ u.squaredNorm(), u.dot(v), v.squaredNorm(), u.dot(away), v.dot(away) };
     const auto [s, t] = Least(square);
-    if (square.At(s, t) < least)
+    const double distance = std::max(0.0, away.squaredNorm() + square.At(s, t));
+    if (distance < least)
     {
-      least = square.At(s, t);
-      nearest = { { row, second, third }, { 1.0 - s - t, s, t },
-        std::sqrt(std::max(0.0, away.squaredNorm() + least)) };
+      least = distance;
+      nearest = { { first, second, third }, { 1.0 - s - t, s, t }, std::sqrt(distance) };
     }
   }
   return nearest;

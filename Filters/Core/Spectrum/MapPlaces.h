@@ -26,13 +26,15 @@ public:
   /// @param embedded  a row for each of them, the place in the space
   MapPlaces(const TriangleMesh& mesh, const ModeRows& rows, const MultiVector& embedded);
 
-  /// Returns the nearest place on the triangles around a row, or the row itself if it has none.
+  /// Returns the nearest place on the triangles around the place of a row in space, or the row
+  /// itself if there are none.
   PlaceOfMap Nearest(Id row, const Eigen::RowVectorXd& query) const;
 
 private:
   const MultiVector& embedded_;
   std::vector<std::array<Id, 3>> triangles_; // rows of the corners
-  Groups around_;                            // corners of triangles (3 × triangle + corner) by row
+  std::vector<Index> classOf_;               // per row, the same for coincident points
+  Groups around_; // corners of triangles (3 × triangle + corner) by class
 };
 
 } // namespace gridfem

@@ -59,8 +59,8 @@ public:
   std::vector<Id> ImageOf(const MultiVector& matrix, const std::vector<Id>& rows,
     const std::vector<Id>& among, const Progress& progress = {}) const;
 
-  /// Returns the matrix of `modes` modes that fits an image of rows of the surface best. The
-  /// landmarks together count like a tenth of the rows.
+  /// Returns the matrix of `modes` modes that fits an image of rows of the surface best. With
+  /// more than forty modes, the landmarks together count like a tenth of the rows.
   MultiVector Fit(const std::vector<Id>& rows, const std::vector<Id>& image, Index modes) const;
 
   /// Returns the mean distance of the images of the landmarks from their partners, on a reference

@@ -15,7 +15,7 @@ constexpr Id QueriesPerBlock = 256;
 
 } // namespace
 
-NearestRows::NearestRows(MultiVector rows, int threads)
+NearestRows::NearestRows(const MultiVector& rows, int threads)
 {
   const auto count = static_cast<Id>(std::ceil(std::sqrt(double(rows.rows()))));
   centers_.resize(count, rows.cols());

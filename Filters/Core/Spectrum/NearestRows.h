@@ -17,7 +17,7 @@ class NearestRows
 {
 public:
   /// @param rows  at least one row, finite
-  explicit NearestRows(MultiVector rows, int threads = 0);
+  explicit NearestRows(const MultiVector& rows, int threads = 0);
 
   /// Returns for each query the nearest row, exactly but for rounding. Among rows at the same
   /// distance, it takes the row with the least index.

@@ -605,6 +605,16 @@ TEST(ParameterizationSolver, CopiesOfTrianglesAreLeftOut)
   }
 }
 
+/// Squares of lengths of a part of 1e-300 are 0, so nothing tells where to cut it. It has no chart.
+TEST(ParameterizationSolver, PartsWithoutAMeasurableAreaAreLeftOut)
+{
+  const TriangleMesh sheet = FlatRectangle(4, 4);
+  const TriangleMesh both = Join(sheet, GeodesicSphere(3, 1e-300));
+  const Solver::Result result = Flatten(both, MapType::Conformal);
+  EXPECT_EQ(result.charts.size(), 1u);
+  EXPECT_EQ(Flatten(sheet, MapType::Conformal).charts.size(), 1u);
+}
+
 TEST(ParameterizationSolver, SameBitsOnAnyNumberOfThreads)
 {
   const TriangleMesh mesh = Torus(60, 40, 2.0, 0.8);

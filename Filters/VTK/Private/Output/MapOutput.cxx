@@ -75,13 +75,21 @@ void TransferArrays(const FunctionalMap& map, vtkPolyData* reference, vtkPointDa
     vtkAbstractArray* array = arrays->GetAbstractArray(k);
     if (array->GetName() && !BelongsToItsPlaces(array, arrays) && array != arrays->GetNormals())
     {
-      RequireLength(array, reference->GetNumberOfPoints(), "points");
       output->AddArray(ValuesAtPlaces(array, places));
     }
   }
 }
 
 } // namespace
+
+void RequireArrays(vtkPolyData* reference)
+{
+  vtkPointData* arrays = reference->GetPointData();
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k)
+  {
+    RequireLength(arrays->GetAbstractArray(k), reference->GetNumberOfPoints(), "points");
+  }
+}
 
 void WriteMap(const FunctionalMap& map, vtkPolyData* reference, vtkPolyData* output)
 {

@@ -9,8 +9,10 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Adds the arrays of the map, and the arrays of the reference without its modes. Throws
-/// InvalidInput naming an array of wrong length.
+/// Throws InvalidInput naming a point array of wrong length.
+void RequireArrays(vtkPolyData* reference);
+
+/// Adds the arrays of the map, and the arrays of the reference without its modes.
 void WriteMap(const FunctionalMap& map, vtkPolyData* reference, vtkPolyData* output);
 
 /// Adds the point array MatchingColors to the reference, and makes it active: red, green and blue
