@@ -48,9 +48,9 @@ struct FunctionalMap
 /// nearest places in the space of the modes, and these places give the matrix of more modes. The
 /// best map wins. Maps that mirror the surface lose, unless landmarks decide.
 ///
-/// The mismatch at a point is |φ(x) - matrix ψ(y)| / √k for the k modes φ of the surface and ψ of
-/// the reference, which have the mean square 1. Isometric surfaces have the mismatch 0, and
-/// unrelated ones about 1.
+/// The mismatch at a point x with the place y is |φ(x) - matrix ψ(y)| / √k. Here φ are the k modes
+/// of the surface, and ψ the modes of the reference. All have the mean square 1. Isometric surfaces
+/// have the mismatch 0, and unrelated ones about 1.
 /// @param landmarks  points that modes reach. Up to forty modes they only choose between maps. From
 ///   then on, all of them together count like a tenth of the points of a fit.
 /// Throws InvalidInput if a surface has fewer than FewestModesOfMap modes, and Aborted. Same bits

@@ -14,9 +14,9 @@ namespace gridfem
 /// of the surfaces.
 std::vector<MultiVector> StartsBySigns(const ModeRows& surface, const ModeRows& reference);
 
-/// The map of the first twenty modes that takes functions around each landmark to functions around
-/// its partner, and modes to modes with similar eigenvalues, as well as possible. [Ovsjanikov et
-/// al. 2012]
+/// A map of the first twenty modes. As well as possible, it takes functions around each landmark to
+/// functions around its partner, and modes to modes with similar eigenvalues. [Ovsjanikov et al.
+/// 2012]
 /// @param landmarks  at least one
 MultiVector StartByLandmarks(
   const ModeRows& surface, const ModeRows& reference, const std::vector<Landmark>& landmarks);
