@@ -70,7 +70,7 @@ class _Results:
 def _solve(name, points, cells, given, properties, sources=(), on=None, observed=(), reactions=(),
            reference=None, partners=()):
     points, cells = _inputs.checked(points, cells)
-    properties = _inputs.chosen(properties)
+    properties = _inputs.chosen(name, properties)
     arrays = {}
     for array, values in given.items():
         if values is None and array not in ("colors", "labels") and name != "SpectralSignatures":

@@ -123,11 +123,15 @@ CHOICES = {
     "TransferFunction": ("Isotropic", "LargeNegative", "LargePositive", "LargeAbsolute", "Custom")}
 
 
-def chosen(properties):
-    """Returns properties with numbers in place of the names of choices."""
+# Properties of filters that are numbers, although another filter has a choice of the name.
+NUMBERS = {("GaussianField", "Smoothness")}
+
+
+def chosen(filter_name, properties):
+    """Returns properties of a filter with numbers in place of the names of choices."""
     numbered = dict(properties)
     for name, value in properties.items():
-        if isinstance(value, str) and name in CHOICES:
+        if isinstance(value, str) and name in CHOICES and (filter_name, name) not in NUMBERS:
             if value not in CHOICES[name]:
                 raise Error(f"{name} = {value!r}: must be one of {', '.join(CHOICES[name])}")
             numbered[name] = CHOICES[name].index(value)

@@ -332,6 +332,12 @@ class Engines(unittest.TestCase):
             owner = getattr(vtkGridFEMFilters, "vtk" + owners[choice])
             self.assertEqual(getattr(owner(), f"Get{choice}MaxValue")(), len(names) - 1)
 
+    def test_a_number_takes_no_choice_of_another_filter(self):
+        points, triangles = self.meshes["ellipsoid"]
+        for package in (gridfem, self.core):
+            with self.assertRaisesRegex(package.Error, "Smoothness = 'Biharmonic': must be a number"):
+                package.gaussian_field(points, triangles, 0.5, Smoothness="Biharmonic", Depth=4)
+
     def test_colors_of_both_are_the_same(self):
         points, triangles = unit_sphere()
         colors = (127.5 * (points + 1)).astype(numpy.uint8)
