@@ -2,6 +2,7 @@
 #ifndef GridFEM_MapPlaces_h
 #define GridFEM_MapPlaces_h
 
+#include "Base/Grouping.h"
 #include "Spectrum/MapRefinement.h"
 
 #include <array>
