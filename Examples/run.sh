@@ -9,7 +9,8 @@ Usage: Examples/run.sh [MESH] [--depth N] [--modes K] [--output DIR]
 
 Installs the Debian packages that are missing (as root or with sudo), builds the programs, the plugin
 and the Python package into build/, and runs the main job on MESH (.ply .obj .stl .vtp .vtk), or without
-one on a trefoil-knot tube whose strands nearly touch. The results and pictures of the eigenfunctions go to DIR (default: output/).
+one on a trefoil-knot tube whose strands nearly touch. The results and pictures of the eigenfunctions go
+to DIR (default: output/).
 
   --depth N     2^N cells along the longest side, 2 to 14
   --modes K     number of eigenfunctions

@@ -1,7 +1,6 @@
 #include "vtkFunctionalMap.h"
 
 #include "Input/CarriedModes.h"
-#include "Input/ModeReader.h"
 #include "Input/PropertyList.h"
 #include "Input/SurfaceInput.h"
 #include "Output/MapOutput.h"
@@ -11,6 +10,7 @@
 
 #include "Base/Errors.h"
 #include "Solvers/FunctionalMapSolver.h"
+#include "Solvers/SolveWarnings.h"
 
 #include "vtkDataSet.h"
 #include "vtkInformationVector.h"
@@ -114,16 +114,8 @@ void vtkFunctionalMap::Compute(vtkInformationVector** inputs, vtkInformationVect
   data.Result = &data.Solver.Update(
     surface, data.Reference, ofSolver, options, { surface.Threads(), state.GetProgress() });
   this->Write(input, reference, outputs);
-  const auto warn = [this](const std::string& port, const gridfem::CarriedModes& carried)
-  {
-    if (!carried.Misfit().empty())
-    {
-      this->Warn({ "The modes of the " + port + " belong to another shape: " + carried.Misfit() +
-                   ". The filter computes new modes." });
-    }
-  };
-  warn("input", data.Carried);
-  warn("Reference", data.OfReference);
+  this->Warn(gridfem::NotEmpty(
+    { data.Carried.WarningOfShape("input"), data.OfReference.WarningOfShape("Reference") }));
   this->Warn(data.Result->warnings);
 }
 
@@ -133,10 +125,7 @@ void vtkFunctionalMap::Write(
   const gridfem::FunctionalMapSolver::Result& result = *this->Data->Result;
   vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
   mesh->ShallowCopy(input);
-  if (!this->Data->Carried.Misfit().empty())
-  {
-    gridfem::RemoveModes(mesh);
-  }
+  this->Data->Carried.RemoveMisfit(mesh);
   gridfem::WriteMap(result.map, reference, mesh);
   if (!result.where.empty())
   {
@@ -145,10 +134,7 @@ void vtkFunctionalMap::Write(
   }
   vtkPolyData* colored = vtkPolyData::GetData(outputs, 1);
   colored->ShallowCopy(reference);
-  if (!this->Data->OfReference.Misfit().empty())
-  {
-    gridfem::RemoveModes(colored);
-  }
+  this->Data->OfReference.RemoveMisfit(colored);
   gridfem::AddMatchingColors(reference, colored);
 }
 

@@ -1,7 +1,6 @@
 #include "vtkSpectralSignatures.h"
 
 #include "Input/CarriedModes.h"
-#include "Input/ModeReader.h"
 #include "Input/NearestPoints.h"
 #include "Input/PropertyList.h"
 #include "Output/ClippedMeshWriter.h"
@@ -127,11 +126,7 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
         gridfem::WriteModeTable(*data.Result, vtkTable::GetData(outputs, 1));
       }
     });
-  if (!data.Carried.Misfit().empty())
-  {
-    this->Warn({ "The modes of the input belong to another shape: " + data.Carried.Misfit() +
-                 ". The filter computes new modes." });
-  }
+  this->Warn(gridfem::NotEmpty({ data.Carried.WarningOfShape("input") }));
   this->Warn(data.Result->warnings);
   state.GetProgress().Check(1.0);
 }
@@ -206,10 +201,7 @@ void vtkSpectralSignatures::Write(vtkPolyData* input, vtkPolyData* output)
   if (hasPoints)
   {
     output->ShallowCopy(input);
-    if (!data.Carried.Misfit().empty())
-    {
-      gridfem::RemoveModes(output);
-    }
+    data.Carried.RemoveMisfit(output);
   }
   const int precision = hasPoints ? gridfem::OutputPrecision(input->GetPoints()) : VTK_DOUBLE;
   gridfem::WriteSignatures(*data.Result, precision, output); // field arrays are on all ranks

@@ -35,17 +35,6 @@
 namespace
 {
 
-void EmptyOutputs(vtkInformationVector* outputs)
-{
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
-    {
-      output->Initialize();
-    }
-  }
-}
-
 /// @param depth  AutomaticDepth: there is no grid, or not yet
 std::string OutOfMemory(int depth)
 {
@@ -191,7 +180,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
   this->State->Read(nullptr, nullptr); // Compute sets it; the last input may be gone
 
-  EmptyOutputs(outputs);
+  gridfem::EmptyOutputs(outputs);
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
@@ -253,7 +242,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   {
     vtkErrorMacro(<< error.what());
   }
-  EmptyOutputs(outputs);
+  gridfem::EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::UnknownError);
   this->Dump->Silence(this->GetExecutive());
   return 0;
@@ -358,7 +347,7 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
 {
-  EmptyOutputs(outputs);
+  gridfem::EmptyOutputs(outputs);
   this->IsBlockAborted = true;
   gridfem::ServeAbort(this);
 }

@@ -16,44 +16,19 @@
 #include "Pipeline/FilterState.h"
 #include "Pipeline/PipelineTime.h"
 
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 
 namespace
 {
 
-/// Empties the data sets and tables of an output. The structure of composite data stays.
-/// @param output  may be null
-void EmptyLeaves(vtkDataObject* output)
-{
-  auto* composite = vtkCompositeDataSet::SafeDownCast(output);
-  if (!composite)
-  {
-    if (output)
-    {
-      output->Initialize();
-    }
-    return;
-  }
-  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    leaf->GetCurrentDataObject()->Initialize();
-  }
-}
-
 /// Makes the input the first output. The other outputs are empty.
 void PassOn(vtkInformationVector* input, vtkInformationVector* outputs)
 {
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    EmptyLeaves(vtkDataObject::GetData(outputs, port));
-  }
+  gridfem::EmptyOutputs(outputs);
   vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(input));
 }
 
@@ -80,9 +55,9 @@ void vtkSurfaceFEMAlgorithm::EndBlocks()
   if (this->Blocks->End())
   {
     this->Joined->Finish(this->KeepsStages());
-    for (int port = 0; this->IsBlockAborted && port < this->GetNumberOfOutputPorts(); ++port)
+    if (this->IsBlockAborted)
     {
-      EmptyLeaves(vtkDataObject::GetData(outputs, port));
+      gridfem::EmptyOutputs(outputs);
     }
     this->Tables->Exchange(outputs);
   }

@@ -3,7 +3,6 @@
 #include "Base/Errors.h"
 #include "Base/SortEachOnce.h"
 #include "Grid/CopiedTriangles.h"
-#include "Grid/CornerClasses.h"
 #include "Grid/SurfaceSides.h"
 #include "Grid/TriangleArea.h"
 #include "Shape/CutGraph.h"

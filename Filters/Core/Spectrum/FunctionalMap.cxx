@@ -155,6 +155,7 @@ private:
         maps.push_back(std::move(map));
       }
     }
+    this->ChooseTriangles();
     std::vector<Finalist> finalists;
     for (PartialMap& map : maps)
     {
@@ -184,25 +185,19 @@ private:
     return finalists;
   }
 
-  /// The difference of the areas that a map keeps on their side and that it turns over, as a share
-  /// of both. It looks at some thousand triangles.
-  double SideOf(const MultiVector& matrix)
+  /// Chooses some thousand triangles of the surface that tell the side of a map. None if one of the
+  /// surfaces has one side only.
+  void ChooseTriangles()
   {
     const OrientedMesh oriented = Orient(ofSurface_.mesh, true, threads_);
-    if (!areNormalsKnown_)
-    {
-      normals_ = NormalsAt(ofReference_.mesh, Orient(ofReference_.mesh, true, threads_));
-      areNormalsKnown_ = true;
-    }
+    normals_ = NormalsAt(ofReference_.mesh, Orient(ofReference_.mesh, true, threads_));
     if (normals_.empty() || oriented.oneSided > 0)
     {
-      return 0.0;
+      return;
     }
     constexpr std::size_t Some = 3000;
     const std::vector<std::array<Id, 3>>& triangles = oriented.TrianglesOf(ofSurface_.mesh);
     const std::size_t step = std::max<std::size_t>(1, triangles.size() / Some);
-    std::vector<Id> corners;
-    std::vector<double> areas;
     for (std::size_t k = 0; k < triangles.size(); k += step)
     {
       const double area = AreaVector(ofSurface_.mesh.points, triangles[k]).norm();
@@ -210,28 +205,33 @@ private:
         [&](Id corner) { return surface_.rowOf[corner] >= 0; });
       if (area > 0.0 && isReached)
       {
-        areas.push_back(area);
+        areas_.push_back(area);
         for (const Id corner : triangles[k])
         {
-          corners.push_back(surface_.rowOf[corner]);
+          corners_.push_back(surface_.rowOf[corner]);
         }
       }
     }
-    return this->SideOf(areas, refinement_.ImageOf(matrix, corners, AllRows(reference_)));
   }
 
-  /// @param image  of three corners for each area
-  double SideOf(const std::vector<double>& areas, const std::vector<Id>& image) const
+  /// The difference of the areas that a map keeps on their side and that it turns over, as a share
+  /// of both. 0 if nothing tells.
+  double SideOf(const MultiVector& matrix) const
   {
+    if (areas_.empty())
+    {
+      return 0.0;
+    }
+    const std::vector<Id> image = refinement_.ImageOf(matrix, corners_, AllRows(reference_));
     double kept = 0.0;
     double all = 0.0;
-    for (std::size_t k = 0; k < areas.size(); ++k)
+    for (std::size_t k = 0; k < areas_.size(); ++k)
     {
       const std::array<Id, 3> corners = { reference_.point[image[3 * k]],
         reference_.point[image[3 * k + 1]], reference_.point[image[3 * k + 2]] };
       const double side = AreaVector(ofReference_.mesh.points, corners).dot(normals_[corners[0]]);
-      kept += side > 0.0 ? areas[k] : side < 0.0 ? -areas[k] : 0.0;
-      all += side != 0.0 ? areas[k] : 0.0;
+      kept += side > 0.0 ? areas_[k] : side < 0.0 ? -areas_[k] : 0.0;
+      all += side != 0.0 ? areas_[k] : 0.0;
     }
     return all > 0.0 ? kept / all : 0.0;
   }
@@ -317,8 +317,11 @@ private:
   const ModeRows reference_;
   const MapRefinement refinement_;
   const int threads_;
-  bool areNormalsKnown_ = false;
-  std::vector<Vec3> normals_; // at the points of the reference; empty: unknown
+  ///@{ For the side of a map (ChooseTriangles).
+  std::vector<double> areas_; // of triangles of the surface
+  std::vector<Id> corners_;   // their corners, three rows for each
+  std::vector<Vec3> normals_; // at the points of the reference
+  ///@}
 };
 
 } // namespace

@@ -52,12 +52,7 @@ std::vector<Id> FirstOf(const std::vector<Id>& rows, Id count)
 
 MultiVector Select(const MultiVector& values, const std::vector<Id>& rows, Index columns)
 {
-  MultiVector selected(static_cast<Id>(rows.size()), columns);
-  for (Id k = 0; k < selected.rows(); ++k)
-  {
-    selected.row(k) = values.row(rows[k]).head(columns);
-  }
-  return selected;
+  return values(rows, Eigen::seqN(0, columns));
 }
 
 } // namespace

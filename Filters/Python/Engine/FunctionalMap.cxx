@@ -22,14 +22,8 @@ Results FunctionalMapResults(const Given& given, const SurfaceOptions& surface,
   }
   FunctionalMapSolver::Result found =
     FunctionalMapSolver::Solve(given.mesh, given.reference, input, options, surface, job);
-  MultiVector corners(static_cast<Id>(found.map.corners.size()), 3);
-  for (Id point = 0; point < corners.rows(); ++point)
-  {
-    const std::array<Id, 3>& of = found.map.corners[point];
-    corners.row(point) << double(of[0]), double(of[1]), double(of[2]);
-  }
   Results results;
-  results.arrays["ReferenceCorners"] = std::move(corners);
+  results.arrays["ReferenceCorners"] = RowsOf(found.map.corners);
   results.arrays["ReferenceWeights"] = std::move(found.map.weights);
   results.arrays["ReferencePlace"] = std::move(found.map.places);
   results.arrays["Mismatch"] = Eigen::Map<const Eigen::VectorXd>(

@@ -18,7 +18,7 @@ Results PathResults(const Given& given, const SurfaceOptions& surface,
   {
     points += static_cast<Id>(path.path.points.size());
   }
-  MultiVector corners(points, 3);
+  std::vector<std::array<Id, 3>> corners;
   MultiVector weights(points, 3);
   MultiVector lengths(static_cast<Id>(found.paths.size()), 1);
   std::vector<Id> sources;
@@ -31,14 +31,12 @@ Results PathResults(const Given& given, const SurfaceOptions& surface,
     targets.push_back(found.paths[k].target);
     for (const PathPoint& point : found.paths[k].path.points)
     {
-      const auto& corner = given.mesh->triangles[point.triangle];
-      corners.row(row) << static_cast<double>(corner[0]), static_cast<double>(corner[1]),
-        static_cast<double>(corner[2]);
+      corners.push_back(given.mesh->triangles[point.triangle]);
       weights.row(row++) = point.weights;
     }
   }
   Results results;
-  results.arrays["CornerIds"] = std::move(corners);
+  results.arrays["CornerIds"] = RowsOf(corners);
   results.arrays["CornerWeights"] = std::move(weights);
   results.arrays["Length"] = std::move(lengths);
   results.arrays["SourceId"] = ColumnOf(sources);

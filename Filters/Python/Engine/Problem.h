@@ -43,6 +43,20 @@ inline MultiVector ColumnOf(const std::vector<Id>& ids)
     .cast<double>();
 }
 
+/// Returns the corners of triangles as rows of three numbers.
+inline MultiVector RowsOf(const std::vector<std::array<Id, 3>>& corners)
+{
+  MultiVector rows(static_cast<Id>(corners.size()), 3);
+  for (Id row = 0; row < rows.rows(); ++row)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      rows(row, k) = static_cast<double>(corners[row][k]);
+    }
+  }
+  return rows;
+}
+
 /// Solves a problem. Throws InvalidInput for unusable input, and Aborted.
 using Problem = std::function<Results(const Given& given, const Progress& progress)>;
 
@@ -55,8 +69,8 @@ extern const MakeProblem MakeDiffusion;
 extern const MakeProblem MakeDistance;
 extern const MakeProblem MakeDynamics;
 extern const MakeProblem MakeFarthestPoints;
-extern const MakeProblem MakeFunctionalMap;
 extern const MakeProblem MakeFlow;
+extern const MakeProblem MakeFunctionalMap;
 extern const MakeProblem MakeGaussianField;
 extern const MakeProblem MakeGradient;
 extern const MakeProblem MakeInterpolation;

@@ -74,4 +74,20 @@ PointModes CarriedModes::Read(InputSurface& surface, vtkPolyData* input)
   return modes;
 }
 
+std::string CarriedModes::WarningOfShape(const std::string& input) const
+{
+  return this->AreOfAnotherShape()
+           ? "The modes of the " + input + " belong to another shape: " + misfit_ +
+               ". The filter computes new modes."
+           : std::string();
+}
+
+void CarriedModes::RemoveMisfit(vtkPolyData* output) const
+{
+  if (this->AreOfAnotherShape())
+  {
+    RemoveModes(output);
+  }
+}
+
 } // namespace gridfem

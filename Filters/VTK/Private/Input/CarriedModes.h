@@ -24,8 +24,15 @@ public:
   /// @param input  that of the surface: on a rank its own piece, which may be null
   GivenModes Update(InputSurface& surface, vtkPolyData* input);
 
-  /// The reason why the modes belong to another shape. Empty if they do not.
-  const std::string& Misfit() const { return misfit_; }
+  /// Whether the input has modes, but of another shape.
+  bool AreOfAnotherShape() const { return !misfit_.empty(); }
+
+  /// The warning about modes of another shape. Empty if there are none.
+  /// @param input  the port, as in "input"
+  std::string WarningOfShape(const std::string& input) const;
+
+  /// Removes modes of another shape from an output.
+  void RemoveMisfit(vtkPolyData* output) const;
 
   /// The mesh that the modes were read on.
   const InputMesh& Mesh() const { return mesh_; }
@@ -35,8 +42,8 @@ private:
 
   InputMesh mesh_;
   GivenModes given_;
-  StageKey ghostKey_; // of modes that were found to be of another shape
-  std::string misfit_;
+  StageKey ghostKey_;  // of modes that were found to be of another shape
+  std::string misfit_; // why the modes belong to another shape; empty if they do not
 };
 
 } // namespace gridfem

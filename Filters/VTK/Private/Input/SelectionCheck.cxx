@@ -2,7 +2,7 @@
 
 #include "Input/InputValidation.h"
 #include "Input/SelectionLists.h"
-#include "Pieces/PieceArrays.h"
+#include "Pieces/GatheredSurface.h"
 #include "Pieces/Ranks.h"
 
 #include "Base/Errors.h"
@@ -140,12 +140,12 @@ void RequireEvaluable(vtkSelection* selection, vtkDataObject* data)
 
 void RequireReadable(vtkDataObject* data)
 {
-  RequireSoundCells(vtkDataSet::SafeDownCast(data));
   if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
-    ForEachCell(surface, [&](vtkIdType cell, const vtkIdType* ids, vtkIdType size)
-      { RequireCorners(cell, size, ids, surface->GetNumberOfPoints(), "mesh"); });
+    RequireGoodCells(surface, "mesh");
+    return;
   }
+  RequireSoundCells(vtkDataSet::SafeDownCast(data));
 }
 
 bool IsReadable(vtkDataObject* data)

@@ -113,11 +113,9 @@ void SetNothing(vtkAbstractArray* array, vtkIdType tuple)
 {
   if (auto* numbers = vtkDataArray::SafeDownCast(array))
   {
-    const double id = array->GetDataType() == VTK_ID_TYPE ? -1.0 : 0.0;
-    const double none = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : id;
     for (int c = 0; c < array->GetNumberOfComponents(); ++c)
     {
-      numbers->SetComponent(tuple, c, none);
+      numbers->SetComponent(tuple, c, NumberOfNone(array));
     }
   }
 }
@@ -160,6 +158,12 @@ bool IsColor(vtkAbstractArray* array)
 bool IsReal(vtkAbstractArray* array)
 {
   return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+double NumberOfNone(vtkAbstractArray* array)
+{
+  const double id = array->GetDataType() == VTK_ID_TYPE ? -1.0 : 0.0;
+  return IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : id;
 }
 
 vtkSmartPointer<vtkAbstractArray> ValuesAtPlaces(

@@ -43,6 +43,9 @@ vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* array, vtkIdType tu
 /// Returns the tuples of an array at some places. Throws std::bad_alloc.
 vtkSmartPointer<vtkAbstractArray> PickTuples(vtkAbstractArray* array, vtkIdList* places);
 
+/// The number that stands for no result: NaN for real numbers, -1 for ids, 0 for others.
+double NumberOfNone(vtkAbstractArray* array);
+
 /// A place on a triangle: the points at its corners, and their weights.
 struct TrianglePlace
 {
@@ -51,8 +54,8 @@ struct TrianglePlace
 };
 
 /// Returns the values of an array at places. Real numbers and colors are linear on the triangles.
-/// Other values come from the nearest corner. Without a place they are NaN, or else 0 or empty, and
-/// ids are -1. Throws std::bad_alloc.
+/// Other values come from the nearest corner. Without a place they are NumberOfNone or empty.
+/// Throws std::bad_alloc.
 vtkSmartPointer<vtkAbstractArray> ValuesAtPlaces(
   vtkAbstractArray* array, const std::vector<TrianglePlace>& places);
 

@@ -95,14 +95,7 @@ void WriteMap(const FunctionalMap& map, vtkPolyData* reference, vtkPolyData* out
 {
   vtkPointData* points = output->GetPointData();
   TransferArrays(map, reference, points);
-  std::vector<Id> corners;
-  for (const std::array<Id, 3>& of : map.corners)
-  {
-    corners.insert(corners.end(), of.begin(), of.end());
-  }
-  const vtkSmartPointer<vtkDataArray> ids = MakeIdArray("ReferenceCorners", corners);
-  ids->SetNumberOfComponents(3);
-  points->AddArray(ids);
+  points->AddArray(MakeIdArray("ReferenceCorners", map.corners));
   points->AddArray(MakePointArray("ReferenceWeights", map.weights, VTK_DOUBLE));
   points->AddArray(MakePointArray("ReferencePlace", map.places, VTK_DOUBLE));
   points->AddArray(MakePointArray("Mismatch", map.mismatch, VTK_DOUBLE));

@@ -55,7 +55,7 @@ struct PathArrays
 {
   std::vector<double> arcLength;
   std::vector<double> weights; // three per point
-  std::vector<Id> corners;     // three per point
+  std::vector<std::array<Id, 3>> corners;
   std::vector<Id> cells;
 };
 
@@ -80,7 +80,7 @@ PathArrays ArraysOfPaths(
       arrays.arcLength.push_back(length);
       arrays.cells.push_back(mesh.sourceCell[point.triangle]);
       const auto& corner = mesh.triangles->triangles[point.triangle];
-      arrays.corners.insert(arrays.corners.end(), corner.begin(), corner.end());
+      arrays.corners.push_back(corner);
       arrays.weights.insert(arrays.weights.end(), point.weights.data(), point.weights.data() + 3);
     }
   }
@@ -104,9 +104,7 @@ void WritePaths(const std::vector<PathSolver::Path>& paths, const InputMesh& mes
   };
   points->AddArray(MakePointArray("ArcLength", rows(arrays.arcLength, 1), VTK_DOUBLE));
   points->AddArray(MakeIdArray("CellId", arrays.cells));
-  const vtkSmartPointer<vtkDataArray> corners = MakeIdArray("CornerIds", arrays.corners);
-  corners->SetNumberOfComponents(3);
-  points->AddArray(corners);
+  points->AddArray(MakeIdArray("CornerIds", arrays.corners));
   points->AddArray(MakePointArray("CornerWeights", rows(arrays.weights, 3), VTK_DOUBLE));
   points->SetActiveScalars("ArcLength");
   std::vector<double> lengths;

@@ -3,10 +3,13 @@
 #include "Pipeline/Allocation.h"
 
 #include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -50,7 +53,35 @@ double SafeLog10(double value)
   return std::log10(std::max(value, std::numeric_limits<double>::min()));
 }
 
+/// Empties the data sets and tables of an output. The structure of composite data stays.
+/// @param output  may be null
+void EmptyLeaves(vtkDataObject* output)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(output);
+  if (!composite)
+  {
+    if (output)
+    {
+      output->Initialize();
+    }
+    return;
+  }
+  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    leaf->GetCurrentDataObject()->Initialize();
+  }
+}
+
 } // namespace
+
+void EmptyOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    EmptyLeaves(vtkDataObject::GetData(outputs, port));
+  }
+}
 
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType)
@@ -76,6 +107,18 @@ void ColorByCells(vtkPolyData* output, const char* name)
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids)
 {
   return CopyValues<vtkIdTypeArray>(name, ids);
+}
+
+vtkSmartPointer<vtkDataArray> MakeIdArray(
+  const char* name, const std::vector<std::array<Id, 3>>& corners)
+{
+  auto array = NewArray<vtkIdTypeArray>(name, static_cast<vtkIdType>(corners.size()), 3);
+  vtkIdType* next = array->GetPointer(0);
+  for (const std::array<Id, 3>& ids : corners)
+  {
+    next = std::copy(ids.begin(), ids.end(), next);
+  }
+  return array;
 }
 
 void AddFieldInt(vtkPolyData* output, const char* name, int value)

@@ -9,11 +9,13 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
 class vtkDataArray;
 class vtkDataObject;
+class vtkInformationVector;
 class vtkPolyData;
 class vtkTable;
 
@@ -31,8 +33,11 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 /// Makes a cell array active, and no point array, because ParaView colors by points first.
 void ColorByCells(vtkPolyData* output, const char* name);
 
-/// Returns an array of ids with one component.
+///@{ Returns an array of ids with one component, or with three for corners of triangles.
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
+vtkSmartPointer<vtkDataArray> MakeIdArray(
+  const char* name, const std::vector<std::array<Id, 3>>& corners);
+///@}
 
 /// Returns the array of a solution for a chosen array, with the names of its components. It is of
 /// bytes if the chosen array holds colors, float if the chosen array is float, else double. Colors
@@ -64,6 +69,9 @@ void AddDevice(const std::string& where, vtkPolyData* output);
 
 /// The field array that is 1 if ranks have computed together.
 constexpr const char* DistributedName = "Distributed";
+
+/// Empties the data sets and tables of all outputs. The structure of composite data stays.
+void EmptyOutputs(vtkInformationVector* outputs);
 
 /// Removes field arrays that report on an earlier run from an output: `Converged`, `Misfit`, and
 /// all others that filters add. They are those of its input that this run has not replaced. Arrays

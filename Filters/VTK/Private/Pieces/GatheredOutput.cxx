@@ -51,14 +51,6 @@ bool HasCellsOf(vtkPolyData* output, vtkPolyData* input)
          are(output->GetPolys(), input->GetPolys()) && are(output->GetStrips(), input->GetStrips());
 }
 
-/// Returns what a result has where there is none.
-double NumberOfNone(vtkAbstractArray* array)
-{
-  return IsReal(array)                         ? std::numeric_limits<double>::quiet_NaN()
-         : array->GetDataType() == VTK_ID_TYPE ? -1.0
-                                               : 0.0;
-}
-
 /// Returns the tuples at some places. Missing places have no result.
 vtkSmartPointer<vtkAbstractArray> TuplesAt(
   vtkAbstractArray* array, const std::vector<vtkIdType>& places)

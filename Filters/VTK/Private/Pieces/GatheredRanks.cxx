@@ -57,7 +57,8 @@ vtkSmartPointer<vtkCellArray> LinesOf(vtkDataSet* data)
   return lines;
 }
 
-/// Returns the points and lines of a data set on another port. Filters use nothing else of it.
+/// Returns a data set on another port. Filters use only its points and lines if it is no
+/// vtkPolyData.
 vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(data))
@@ -92,7 +93,7 @@ void PutData(vtkDataObject* data, DataMessage& message)
   {
     if (surface->GetNumberOfPoints() > 0)
     {
-      RequireGoodCells(surface);
+      RequireGoodCells(surface, "piece");
     }
     message.PutSurface(surface);
   }
@@ -195,7 +196,7 @@ void GatheredRanks::Update(vtkInformationVector** inputs, int ports, bool weldCo
   ranks.Together(
     [&]
     {
-      RequireGoodCells(own_);
+      RequireGoodCells(own_, "piece");
       for (int port = 0; !ranks.IsFirst() && port < ports; ++port)
       {
         PutData(port == 0 ? own_.Get() : vtkDataObject::GetData(inputs[port]), message);

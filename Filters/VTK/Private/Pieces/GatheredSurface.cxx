@@ -93,11 +93,11 @@ void AddSurface(StageKey& key, vtkPolyData* surface)
   AddArrays(key, surface->GetFieldData());
 }
 
-void RequireGoodCells(vtkPolyData* surface)
+void RequireGoodCells(vtkPolyData* surface, const char* whole)
 {
   RequireSoundCells(surface);
   ForEachCell(surface, [&](vtkIdType cell, const vtkIdType* ids, vtkIdType size)
-    { RequireCorners(cell, size, ids, surface->GetNumberOfPoints(), "piece"); });
+    { RequireCorners(cell, size, ids, surface->GetNumberOfPoints(), whole); });
 }
 
 GatheredSurface JoinPieces(

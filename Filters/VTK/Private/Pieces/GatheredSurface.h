@@ -36,7 +36,8 @@ struct GatheredSurface
 void AddSurface(StageKey& key, vtkPolyData* surface);
 
 /// Throws InvalidInput for a cell with a point that does not exist.
-void RequireGoodCells(vtkPolyData* surface);
+/// @param whole  has the points: "mesh" or "piece"
+void RequireGoodCells(vtkPolyData* surface, const char* whole);
 
 /// Joins pieces, one for each owner, a rank or a block. Empty pieces may be among them.
 /// - Cells that vtkGhostType marks as duplicates are left out, with their points. They are found

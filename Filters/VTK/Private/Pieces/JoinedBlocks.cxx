@@ -150,7 +150,8 @@ vtkInformationVector** JoinedBlocks::Inputs(
   if (!last || !(entry_->key == key))
   {
     entry_->surface = {};
-    std::for_each(pieces.begin(), pieces.end(), &RequireGoodCells);
+    std::for_each(
+      pieces.begin(), pieces.end(), [](vtkPolyData* piece) { RequireGoodCells(piece, "piece"); });
     if (pieces.empty())
     {
       pieces.push_back(vtkSmartPointer<vtkPolyData>::New());
